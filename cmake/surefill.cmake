@@ -1,0 +1,25 @@
+# What every target of the project is built with.
+
+find_program(SUREFILL_CCACHE ccache)
+if(SUREFILL_CCACHE AND PROJECT_IS_TOP_LEVEL)
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${SUREFILL_CCACHE})
+  set(CMAKE_C_COMPILER_LAUNCHER ${SUREFILL_CCACHE})
+endif()
+
+# Warnings and sanitizers of the project's own code; libraries are included as SYSTEM.
+add_library(surefill_flags INTERFACE)
+target_compile_options(surefill_flags INTERFACE -Wall -Wextra -Wconversion -Wsign-conversion -Wshadow)
+if(SUREFILL_WERROR)
+  target_compile_options(surefill_flags INTERFACE -Werror)
+endif()
+# Contraction to FMA would silently break exact arithmetic (and make images differ between machines).
+target_compile_options(surefill_flags INTERFACE -ffp-contract=off)
+
+if(SUREFILL_SANITIZE)
+  add_compile_options(-fsanitize=${SUREFILL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+  add_link_options(-fsanitize=${SUREFILL_SANITIZE})
+endif()
+if(SUREFILL_COVERAGE)
+  add_compile_options(-fprofile-instr-generate -fcoverage-mapping)
+  add_link_options(-fprofile-instr-generate)
+endif()

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Surefill: an exact triangle rasterizer.
+//
+// Every output bit is defined by docs/semantics.md; the letters in brackets below (S2, C3, I4, ...) are its rules.
+//
+// Space      Pixels: x to the right, y down; pixel (i, j) is [i, i+1) x [j, j+1) [S1]. A vertex (X, Y, Z, W) is
+//            pixel-homogeneous: where W > 0 it projects to pixel position (X/W, Y/W) and depth Z/W [S2]. Any sign of
+//            W, any magnitude. There is no clipping: a triangle may reach behind the eye. `to_pixel` makes such
+//            vertices from clip space [S3].
+// Depth      Any real number; smaller is nearer unless DepthTest::greater is asked for. Stored as the nearest float32.
+// Exactness  Coverage is decided on the given float32 values as real numbers [C4]; depth, barycentrics and attributes
+//            are the real value, rounded once [I4]. The same bits on every machine, compiler and thread count,
+//            whatever floating-point mode the caller has set [B4].
+// Limits     Targets of 1..16384 pixels each way [S5], 2^32 - 2 triangles a draw, kMaxAttributes attribute arrays of at
+//            most kMaxComponents floats.
+// Errors     Nothing throws, prints or aborts. A Status names the argument at fault; then nothing was written [B2].
+//            A triangle with a NaN or an infinity is dropped and counted, and changes nothing else [B1].
+// Threads    Calls share no state: any number may run at once on different targets. Each call runs on one thread.
+// Memory     A call needs at most 8 bytes of working memory for each sample and 192 for each attribute-carrying
+//            triangle in flight; when that cannot be had the status is out_of_memory.
+#ifndef SUREFILL_SUREFILL_HPP
+#define SUREFILL_SUREFILL_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "surefill/version.hpp"
+
+namespace surefill {
+
+inline constexpr int kMaxTargetSize = 16384;        // pixels, each way
+inline constexpr std::size_t kMaxAttributes = 16;   // attribute arrays of a draw
+inline constexpr std::uint32_t kMaxComponents = 4;  // floats of one attribute
+inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;  // the index of an empty sample [V1]
+
+// What a call returns: ok, or the first argument found to be wrong. `status_text` gives a sentence.
+enum class Status : std::uint32_t {
+  ok = 0,
+  out_of_memory,
+  target_size,               // width or height outside 1..kMaxTargetSize
+  target_samples,            // samples not 1, 2, 4, 8 or 16
+  target_count,              // count is neither empty nor of sample_total(target) elements
+  target_index,              // index: the same
+  target_depth,              // depth: the same
+  target_barycentrics,       // barycentrics: neither empty nor 3 * sample_total(target) elements
+  target_attributes,         // an attribute target: components outside 1..4, too many, or the wrong buffer size
+  target_initial_depth,      // initial_depth is neither empty nor of sample_total(target) elements
+  target_overlap,            // two buffers overlap (only initial_depth and depth may be the same buffer)
+  target_depth_test,         // not an enumerator of DepthTest
+  target_attribute_location, // not an enumerator of AttributeLocation
+  draw_vertices,             // a null vertex buffer that is not empty, or more than 2^32 - 1 vertices
+  draw_indices,              // a null index buffer, a size that is no multiple of 3, or more than 2^32 - 2 triangles
+  draw_index_out_of_range,   // an index that names no vertex
+  draw_identifiers,          // neither empty nor one for each triangle
+  draw_first_index,          // first_index + triangles exceeds 2^32 - 1
+  draw_attributes,           // fewer arrays than the target asks for, other components, or too short an array
+  draw_attribute_interpolation,  // not an enumerator of Interpolation
+  draw_fill_rule,            // not an enumerator of FillRule
+  draw_front_face,           // not an enumerator of FrontFace
+  draw_cull,                 // not an enumerator of Cull
+  draw_depth_mode,           // not an enumerator of DepthMode
+  draw_conservative,         // not an enumerator of Conservative, or in a frame that asks for more than count [M4]
+  draw_grid,                 // bits outside 0..12, an offset outside 0..15, or not an enumerator of GridRounding
+  unsupported_samples,       // the value is legal, but this version of the engine does not draw it yet
+  unsupported_grid,          //
+  unsupported_conservative,  //
+  viewport,                  // a viewport number that is not finite
+};
+
+// An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
+const char* status_text(Status status) noexcept;
+
+// A pixel-homogeneous vertex [S2]. In an array: 16 bytes a vertex, no padding.
+struct Vertex {
+  float x, y, z, w;
+};
+
+// A vertex in clip space, before the viewport [S3].
+struct ClipVertex {
+  float x, y, z, w;
+};
+
+enum class ClipDepth : std::uint8_t { zero_to_one, minus_one_to_one };
+enum class ClipY : std::uint8_t { up, down };
+
+// The rectangle of the target, in pixels, and the depth range that clip space is mapped to [S3]. Any finite values.
+struct Viewport {
+  float x = 0, y = 0, width = 1, height = 1, near_depth = 0, far_depth = 1;
+  ClipDepth clip_depth = ClipDepth::zero_to_one;
+  ClipY clip_y = ClipY::up;
+};
+
+// The viewport map [S3]: each component is the exact real value, rounded once to float32 as IEEE 754 does it (nearest,
+// ties to even, beyond range infinity). Equal inputs give bitwise equal outputs, so shared vertices stay shared.
+// `vertices` and `out` have the same size and do not overlap; else, or if a viewport number is not finite, the status
+// says so and nothing is written.
+Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices, std::span<Vertex> out) noexcept;
+
+// Which side owns a sample that lies exactly on an edge [C3]: the sample is moved by an infinitely small step. The first
+// four move it in x first and in y only to settle ties along a horizontal edge; the last four in y first.
+enum class FillRule : std::uint8_t {
+  top_left,        // +x, then +y: Direct3D, Vulkan
+  top_right,       // -x, then +y
+  bottom_left,     // +x, then -y: OpenGL with y up
+  bottom_right,    // -x, then -y
+  southwards,      // +y, then +x
+  southwards_west, // +y, then -x
+  northwards,      // -y, then +x
+  northwards_west, // -y, then -x
+};
+
+enum class FrontFace : std::uint8_t { clockwise, counter_clockwise };  // as seen on the screen; clockwise: D > 0 [F1]
+enum class Cull : std::uint8_t { none, front, back };                  // which facing is not drawn [F2]
+enum class DepthTest : std::uint8_t { less, greater };                 // greater: reversed z [V1]
+enum class DepthMode : std::uint8_t { none, clip, clamp };             // what happens outside 0 <= z <= 1 [I5]
+enum class Interpolation : std::uint8_t { perspective, noperspective, flat };  // flat: the value of vertex 0 [I2]
+enum class AttributeLocation : std::uint8_t { centre, centroid };      // of a pixel with several samples [M1]
+enum class Conservative : std::uint8_t { none, over, inner };          // [M4]
+enum class GridRounding : std::uint8_t { nearest_even, nearest_up, truncate };
+
+// Half-open pixel rectangle [x0, x1) x [y0, y1); any values, empty where x0 >= x1 or y0 >= y1 [M3].
+struct Scissor {
+  int x0, y0, x1, y1;
+};
+
+// Positions are snapped to offset + k 2^-bits pixels before coverage, as GPUs do [section 6].
+struct Grid {
+  int bits = 8;                        // 0..12
+  int offset_x = 0, offset_y = 0;      // 0..15, in units of 2^-(bits + 4) pixels
+  GridRounding rounding = GridRounding::nearest_even;
+};
+
+// One attribute of every vertex of a draw. The value of component c at vertex v is values[v * stride + c].
+struct AttributeArray {
+  std::span<const float> values;
+  std::uint32_t components = 1;  // 1..kMaxComponents
+  std::uint32_t stride = 0;      // floats from one vertex to the next; 0 means `components`
+  Interpolation interpolation = Interpolation::perspective;
+};
+
+// Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2].
+struct Draw {
+  std::span<const Vertex> vertices;
+  std::span<const std::uint32_t> indices;
+  std::span<const std::uint32_t> identifiers;  // one a triangle, unique; or empty: first_index + t [V2]
+  std::uint32_t first_index = 0;
+  std::span<const AttributeArray> attributes;  // array k feeds target attribute k; more arrays only take part in B1
+  FillRule fill_rule = FillRule::top_left;
+  FrontFace front_face = FrontFace::clockwise;
+  Cull cull = Cull::none;
+  DepthMode depth_mode = DepthMode::none;
+  bool depth_write = true;  // false: M5
+  Conservative conservative = Conservative::none;
+  std::optional<Scissor> scissor;
+  std::optional<Grid> grid;
+  std::optional<std::array<Vertex, 8>> culling_box;  // corners whose hull contains the draw: the caller's promise [M6]
+};
+
+// An attribute image. The value of component c at sample s is values[s * components + c].
+struct AttributeTarget {
+  std::span<float> values;  // components * sample_total(target) floats, or empty: this attribute is not asked for
+  std::uint32_t components = 1;
+};
+
+// Where the image goes. An empty span is an output that is not asked for. Sample n of pixel (x, y) is element
+// (y * width + x) * samples + n of every buffer. Each buffer asked for is overwritten whole; the empty sample holds
+// count 0, index kNoTriangle, depth +inf (-inf for greater) or the initial depth, barycentrics and attributes +0 [V1].
+struct Target {
+  int width = 0, height = 0;            // pixels
+  int samples = 1;                      // a pixel: 1, 2, 4, 8 or 16, at the standard locations [S4]
+  std::span<std::uint32_t> count;       // triangles that cover the sample [M2]
+  std::span<std::uint32_t> index;       // the visible triangle [V1, V2]
+  std::span<float> depth;               // its depth [I1]
+  std::span<float> barycentrics;        // its perspective-correct weights b0, b1, b2: 3 floats a sample [I3]
+  std::span<const AttributeTarget> attributes;  // its attributes [I2]
+  std::span<const float> initial_depth; // a fragment must beat it strictly [V1]; may be the depth buffer itself
+  DepthTest depth_test = DepthTest::less;
+  AttributeLocation attribute_location = AttributeLocation::centre;
+};
+
+// What one call to render did. The first group adds up to `triangles`.
+struct Statistics {
+  std::uint64_t triangles = 0;
+  std::uint64_t dropped = 0;     // a NaN or an infinity [B1]
+  std::uint64_t degenerate = 0;  // D = 0 [C1]
+  std::uint64_t culled = 0;      // by facing [F2]
+  std::uint64_t outside = 0;     // not culled, but no sample of the target lies in the triangle's screen box
+  std::uint64_t rasterized = 0;  // the rest
+
+  std::uint64_t covered_samples = 0;  // sum of the coverage counts
+  // Signs of edge functions and of D by the rung of the ladder that settled them.
+  std::uint64_t signs_by_filter = 0;     // double arithmetic with an error bound
+  std::uint64_t signs_by_residual = 0;   // double arithmetic proved exact, real ties among them
+  std::uint64_t signs_by_expansion = 0;  // exact expansions
+  // Values (depths, weights, attributes, clip decisions) in the same way.
+  std::uint64_t values_by_filter = 0;
+  std::uint64_t values_by_expansion = 0;
+};
+
+// The number of samples of a target: width * height * samples. 0 if a size is outside S5.
+std::size_t sample_total(const Target& target) noexcept;
+
+// Draws a frame: the draws in order, each onto the image of those before it [V3]. Nothing is written unless the status
+// is ok, or out_of_memory (then the buffers asked for hold unspecified values). `statistics` may be null.
+Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics = nullptr) noexcept;
+
+// Checks the arguments of render as render does, and draws nothing. `unsupported_*` is not reported.
+Status validate(const Target& target, std::span<const Draw> draws) noexcept;
+
+// The offset of sample n of a pixel from the pixel's top left corner, in 1/16 pixel [S4]. n < samples.
+struct SampleLocation {
+  int x, y;
+};
+SampleLocation sample_location(int samples, int n) noexcept;
+
+}  // namespace surefill
+
+#endif  // SUREFILL_SUREFILL_HPP

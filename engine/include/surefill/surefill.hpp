@@ -17,8 +17,9 @@
 // Errors     Nothing throws, prints or aborts. A Status names the argument at fault; then nothing was written [B2].
 //            A triangle with a NaN or an infinity is dropped and counted, and changes nothing else [B1].
 // Threads    Calls share no state: any number may run at once on different targets. Each call runs on one thread.
-// Memory     A call needs at most 8 bytes of working memory for each sample and 192 for each attribute-carrying
-//            triangle in flight; when that cannot be had the status is out_of_memory.
+// Memory     A call allocates at most 8 bytes for each sample, and none for coverage counts alone; when that cannot be
+// had the
+//            status is out_of_memory.
 #ifndef SUREFILL_SUREFILL_HPP
 #define SUREFILL_SUREFILL_HPP
 
@@ -32,43 +33,44 @@
 
 namespace surefill {
 
-inline constexpr int kMaxTargetSize = 16384;        // pixels, each way
-inline constexpr std::size_t kMaxAttributes = 16;   // attribute arrays of a draw
-inline constexpr std::uint32_t kMaxComponents = 4;  // floats of one attribute
+inline constexpr int kMaxTargetSize = 16384;               // pixels, each way
+inline constexpr std::size_t kMaxAttributes = 16;          // attribute arrays of a draw
+inline constexpr std::uint32_t kMaxComponents = 4;         // floats of one attribute
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;  // the index of an empty sample [V1]
 
 // What a call returns: ok, or the first argument found to be wrong. `status_text` gives a sentence.
 enum class Status : std::uint32_t {
   ok = 0,
   out_of_memory,
-  target_size,               // width or height outside 1..kMaxTargetSize
-  target_samples,            // samples not 1, 2, 4, 8 or 16
-  target_count,              // count is neither empty nor of sample_total(target) elements
-  target_index,              // index: the same
-  target_depth,              // depth: the same
-  target_barycentrics,       // barycentrics: neither empty nor 3 * sample_total(target) elements
-  target_attributes,         // an attribute target: components outside 1..4, too many, or the wrong buffer size
-  target_initial_depth,      // initial_depth is neither empty nor of sample_total(target) elements
-  target_overlap,            // two buffers overlap (only initial_depth and depth may be the same buffer)
-  target_depth_test,         // not an enumerator of DepthTest
-  target_attribute_location, // not an enumerator of AttributeLocation
-  draw_vertices,             // a null vertex buffer that is not empty, or more than 2^32 - 1 vertices
-  draw_indices,              // a null index buffer, a size that is no multiple of 3, or more than 2^32 - 2 triangles
-  draw_index_out_of_range,   // an index that names no vertex
-  draw_identifiers,          // neither empty nor one for each triangle
-  draw_first_index,          // first_index + triangles exceeds 2^32 - 1
-  draw_attributes,           // fewer arrays than the target asks for, other components, or too short an array
+  target_size,                // width or height outside 1..kMaxTargetSize
+  target_samples,             // samples not 1, 2, 4, 8 or 16
+  target_count,               // count is neither empty nor of sample_total(target) elements
+  target_index,               // index: the same
+  target_depth,               // depth: the same
+  target_barycentrics,        // barycentrics: neither empty nor 3 * sample_total(target) elements
+  target_attributes,          // an attribute target: components outside 1..4, too many, or the wrong buffer size
+  target_initial_depth,       // initial_depth is neither empty nor of sample_total(target) elements
+  target_overlap,             // an output overlaps another buffer (only initial_depth and depth may be the same one)
+  target_depth_test,          // not an enumerator of DepthTest
+  target_attribute_location,  // not an enumerator of AttributeLocation
+  draws,                      // the list of draws is null but not empty
+  draw_vertices,              // a null vertex buffer that is not empty, or more than 2^32 - 1 vertices
+  draw_indices,               // a null index buffer, a size that is no multiple of 3, or more than 2^32 - 2 triangles
+  draw_index_out_of_range,    // an index that names no vertex
+  draw_identifiers,           // neither empty nor one for each triangle
+  draw_first_index,           // first_index + triangles exceeds 2^32 - 1
+  draw_attributes,            // fewer arrays than the target asks for, other components, or too short an array
   draw_attribute_interpolation,  // not an enumerator of Interpolation
-  draw_fill_rule,            // not an enumerator of FillRule
-  draw_front_face,           // not an enumerator of FrontFace
-  draw_cull,                 // not an enumerator of Cull
-  draw_depth_mode,           // not an enumerator of DepthMode
-  draw_conservative,         // not an enumerator of Conservative, or in a frame that asks for more than count [M4]
-  draw_grid,                 // bits outside 0..12, an offset outside 0..15, or not an enumerator of GridRounding
-  unsupported_samples,       // the value is legal, but this version of the engine does not draw it yet
-  unsupported_grid,          //
-  unsupported_conservative,  //
-  viewport,                  // a viewport number that is not finite
+  draw_fill_rule,                // not an enumerator of FillRule
+  draw_front_face,               // not an enumerator of FrontFace
+  draw_cull,                     // not an enumerator of Cull
+  draw_depth_mode,               // not an enumerator of DepthMode
+  draw_conservative,             // not an enumerator of Conservative, or in a frame that asks for more than count [M4]
+  draw_grid,                     // bits outside 0..12, an offset outside 0..15, or not an enumerator of GridRounding
+  unsupported_samples,           // the value is legal, but this version of the engine does not draw it yet
+  unsupported_grid,              //
+  unsupported_conservative,      //
+  viewport,                      // a viewport number that is not finite
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
@@ -100,17 +102,17 @@ struct Viewport {
 // says so and nothing is written.
 Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices, std::span<Vertex> out) noexcept;
 
-// Which side owns a sample that lies exactly on an edge [C3]: the sample is moved by an infinitely small step. The first
-// four move it in x first and in y only to settle ties along a horizontal edge; the last four in y first.
+// Which side owns a sample that lies exactly on an edge [C3]: the sample is moved by an infinitely small step. The
+// first four move it in x first and in y only to settle ties along a horizontal edge; the last four in y first.
 enum class FillRule : std::uint8_t {
-  top_left,        // +x, then +y: Direct3D, Vulkan
-  top_right,       // -x, then +y
-  bottom_left,     // +x, then -y: OpenGL with y up
-  bottom_right,    // -x, then -y
-  southwards,      // +y, then +x
-  southwards_west, // +y, then -x
-  northwards,      // -y, then +x
-  northwards_west, // -y, then -x
+  top_left,         // +x, then +y: Direct3D, Vulkan
+  top_right,        // -x, then +y
+  bottom_left,      // +x, then -y: OpenGL with y up
+  bottom_right,     // -x, then -y
+  southwards,       // +y, then +x
+  southwards_west,  // +y, then -x
+  northwards,       // -y, then +x
+  northwards_west,  // -y, then -x
 };
 
 enum class FrontFace : std::uint8_t { clockwise, counter_clockwise };  // as seen on the screen; clockwise: D > 0 [F1]
@@ -118,8 +120,8 @@ enum class Cull : std::uint8_t { none, front, back };                  // which 
 enum class DepthTest : std::uint8_t { less, greater };                 // greater: reversed z [V1]
 enum class DepthMode : std::uint8_t { none, clip, clamp };             // what happens outside 0 <= z <= 1 [I5]
 enum class Interpolation : std::uint8_t { perspective, noperspective, flat };  // flat: the value of vertex 0 [I2]
-enum class AttributeLocation : std::uint8_t { centre, centroid };      // of a pixel with several samples [M1]
-enum class Conservative : std::uint8_t { none, over, inner };          // [M4]
+enum class AttributeLocation : std::uint8_t { centre, centroid };              // of a pixel with several samples [M1]
+enum class Conservative : std::uint8_t { none, over, inner };                  // [M4]
 enum class GridRounding : std::uint8_t { nearest_even, nearest_up, truncate };
 
 // Half-open pixel rectangle [x0, x1) x [y0, y1); any values, empty where x0 >= x1 or y0 >= y1 [M3].
@@ -129,8 +131,8 @@ struct Scissor {
 
 // Positions are snapped to offset + k 2^-bits pixels before coverage, as GPUs do [section 6].
 struct Grid {
-  int bits = 8;                        // 0..12
-  int offset_x = 0, offset_y = 0;      // 0..15, in units of 2^-(bits + 4) pixels
+  int bits = 8;                    // 0..12
+  int offset_x = 0, offset_y = 0;  // 0..15, in units of 2^-(bits + 4) pixels
   GridRounding rounding = GridRounding::nearest_even;
 };
 
@@ -170,14 +172,14 @@ struct AttributeTarget {
 // (y * width + x) * samples + n of every buffer. Each buffer asked for is overwritten whole; the empty sample holds
 // count 0, index kNoTriangle, depth +inf (-inf for greater) or the initial depth, barycentrics and attributes +0 [V1].
 struct Target {
-  int width = 0, height = 0;            // pixels
-  int samples = 1;                      // a pixel: 1, 2, 4, 8 or 16, at the standard locations [S4]
-  std::span<std::uint32_t> count;       // triangles that cover the sample [M2]
-  std::span<std::uint32_t> index;       // the visible triangle [V1, V2]
-  std::span<float> depth;               // its depth [I1]
-  std::span<float> barycentrics;        // its perspective-correct weights b0, b1, b2: 3 floats a sample [I3]
+  int width = 0, height = 0;                    // pixels
+  int samples = 1;                              // a pixel: 1, 2, 4, 8 or 16, at the standard locations [S4]
+  std::span<std::uint32_t> count;               // triangles that cover the sample [M2]
+  std::span<std::uint32_t> index;               // the visible triangle [V1, V2]
+  std::span<float> depth;                       // its depth [I1]
+  std::span<float> barycentrics;                // its perspective-correct weights b0, b1, b2: 3 floats a sample [I3]
   std::span<const AttributeTarget> attributes;  // its attributes [I2]
-  std::span<const float> initial_depth; // a fragment must beat it strictly [V1]; may be the depth buffer itself
+  std::span<const float> initial_depth;         // a fragment must beat it strictly [V1]; may be the depth buffer itself
   DepthTest depth_test = DepthTest::less;
   AttributeLocation attribute_location = AttributeLocation::centre;
 };

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// B2: every argument is checked before anything is written.
+#include <cstdint>
+#include <limits>
+
+#include "surefill/surefill.hpp"
+
+namespace surefill {
+namespace {
+
+constexpr std::size_t kLargestIndex = std::numeric_limits<std::uint32_t>::max();
+
+template <typename T>
+bool null_but_not_empty(std::span<T> s) {
+  return s.data() == nullptr && !s.empty();
+}
+
+// Empty (not asked for), or a buffer of exactly `size` elements.
+template <typename T>
+bool fits(std::span<T> buffer, std::size_t size) {
+  return buffer.empty() || (buffer.data() != nullptr && buffer.size() == size);
+}
+
+struct Bytes {
+  std::uintptr_t begin = 0, end = 0;
+
+  Bytes() = default;
+  template <typename T>
+  explicit Bytes(std::span<T> s) : begin(reinterpret_cast<std::uintptr_t>(s.data())), end(begin + s.size_bytes()) {}
+  bool overlaps(const Bytes& other) const { return begin < other.end && other.begin < end; }
+};
+
+// The buffers that a frame writes.
+struct OutputBuffers {
+  Bytes bytes[4 + kMaxAttributes];
+  std::size_t count = 0;
+
+  // False if the buffer overlaps one that was there before.
+  bool add(const Bytes& buffer) {
+    if (touched_by(buffer)) return false;
+    bytes[count++] = buffer;
+    return true;
+  }
+  bool touched_by(const Bytes& buffer) const {
+    for (std::size_t i = 0; i < count; ++i) {
+      if (bytes[i].overlaps(buffer)) return true;
+    }
+    return false;
+  }
+};
+
+Status validate_target(const Target& target, OutputBuffers& outputs) {
+  const auto size_ok = [](int size) { return size >= 1 && size <= kMaxTargetSize; };
+  if (!size_ok(target.width) || !size_ok(target.height)) return Status::target_size;
+  if (target.samples != 1 && target.samples != 2 && target.samples != 4 && target.samples != 8 &&
+      target.samples != 16) {
+    return Status::target_samples;
+  }
+  const std::size_t total = sample_total(target);
+  if (!fits(target.count, total)) return Status::target_count;
+  if (!fits(target.index, total)) return Status::target_index;
+  if (!fits(target.depth, total)) return Status::target_depth;
+  if (!fits(target.barycentrics, 3 * total)) return Status::target_barycentrics;
+  if (null_but_not_empty(target.attributes) || target.attributes.size() > kMaxAttributes)
+    return Status::target_attributes;
+  for (const AttributeTarget& attribute : target.attributes) {
+    if (attribute.components < 1 || attribute.components > kMaxComponents ||
+        !fits(attribute.values, attribute.components * total)) {
+      return Status::target_attributes;
+    }
+  }
+  if (!fits(target.initial_depth, total)) return Status::target_initial_depth;
+  if (target.depth_test > DepthTest::greater) return Status::target_depth_test;
+  if (target.attribute_location > AttributeLocation::centroid) return Status::target_attribute_location;
+
+  bool apart =
+      outputs.add(Bytes(target.count)) && outputs.add(Bytes(target.index)) && outputs.add(Bytes(target.barycentrics));
+  for (const AttributeTarget& attribute : target.attributes) apart = apart && outputs.add(Bytes(attribute.values));
+  // The initial depth may be the depth buffer itself, but not overlap it otherwise.
+  const bool same = target.initial_depth.data() == target.depth.data();
+  apart = apart && !outputs.touched_by(Bytes(target.initial_depth)) && outputs.add(Bytes(target.depth)) &&
+          (same || !Bytes(target.depth).overlaps(Bytes(target.initial_depth)));
+  return apart ? Status::ok : Status::target_overlap;
+}
+
+bool asks_for_more_than_count(const Target& target) {
+  bool more = !target.index.empty() || !target.depth.empty() || !target.barycentrics.empty();
+  for (const AttributeTarget& attribute : target.attributes) more |= !attribute.values.empty();
+  return more;
+}
+
+Status validate_attributes(const Target& target, const Draw& draw) {
+  if (null_but_not_empty(draw.attributes) || draw.attributes.size() > kMaxAttributes ||
+      draw.attributes.size() < target.attributes.size()) {
+    return Status::draw_attributes;
+  }
+  for (std::size_t k = 0; k < draw.attributes.size(); ++k) {
+    const AttributeArray& attribute = draw.attributes[k];
+    if (attribute.components < 1 || attribute.components > kMaxComponents) return Status::draw_attributes;
+    if (k < target.attributes.size() && attribute.components != target.attributes[k].components) {
+      return Status::draw_attributes;
+    }
+    if (attribute.stride != 0 && attribute.stride < attribute.components) return Status::draw_attributes;
+    const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
+    // Below 2^32 vertices and strides, so nothing overflows.
+    const std::size_t needed = draw.vertices.empty() ? 0 : (draw.vertices.size() - 1) * stride + attribute.components;
+    if (null_but_not_empty(attribute.values) || attribute.values.size() < needed) return Status::draw_attributes;
+    if (attribute.interpolation > Interpolation::flat) return Status::draw_attribute_interpolation;
+  }
+  return Status::ok;
+}
+
+Status validate_draw(const Target& target, const Draw& draw, const OutputBuffers& outputs) {
+  static_assert(sizeof(std::size_t) == 8, "sizes are checked in 64 bits");
+  if (null_but_not_empty(draw.vertices) || draw.vertices.size() > kLargestIndex) return Status::draw_vertices;
+  const std::size_t triangles = draw.indices.size() / 3;
+  if (null_but_not_empty(draw.indices) || draw.indices.size() % 3 != 0 || triangles >= kLargestIndex) {
+    return Status::draw_indices;
+  }
+  if (!draw.identifiers.empty() && (draw.identifiers.data() == nullptr || draw.identifiers.size() != triangles)) {
+    return Status::draw_identifiers;
+  }
+  if (draw.identifiers.empty() && triangles > kLargestIndex - draw.first_index) return Status::draw_first_index;
+  if (const Status status = validate_attributes(target, draw); status != Status::ok) return status;
+  if (draw.fill_rule > FillRule::northwards_west) return Status::draw_fill_rule;
+  if (draw.front_face > FrontFace::counter_clockwise) return Status::draw_front_face;
+  if (draw.cull > Cull::back) return Status::draw_cull;
+  if (draw.depth_mode > DepthMode::clamp) return Status::draw_depth_mode;
+  if (draw.grid) {
+    const Grid& grid = *draw.grid;
+    const auto offset_ok = [](int offset) { return offset >= 0 && offset <= 15; };
+    if (grid.bits < 0 || grid.bits > 12 || !offset_ok(grid.offset_x) || !offset_ok(grid.offset_y) ||
+        grid.rounding > GridRounding::truncate) {
+      return Status::draw_grid;
+    }
+  }
+  if (draw.conservative > Conservative::inner) return Status::draw_conservative;
+  if (draw.conservative != Conservative::none &&
+      (asks_for_more_than_count(target) || target.samples != 1 || draw.depth_mode != DepthMode::none || draw.grid)) {
+    return Status::draw_conservative;
+  }
+  bool apart = !outputs.touched_by(Bytes(draw.vertices)) && !outputs.touched_by(Bytes(draw.indices)) &&
+               !outputs.touched_by(Bytes(draw.identifiers));
+  for (const AttributeArray& attribute : draw.attributes) apart = apart && !outputs.touched_by(Bytes(attribute.values));
+  if (!apart) return Status::target_overlap;
+  for (const std::uint32_t index : draw.indices) {
+    if (index >= draw.vertices.size()) return Status::draw_index_out_of_range;
+  }
+  return Status::ok;
+}
+
+}  // namespace
+
+std::size_t sample_total(const Target& target) noexcept {
+  if (target.width < 1 || target.width > kMaxTargetSize || target.height < 1 || target.height > kMaxTargetSize ||
+      target.samples < 1 || target.samples > 16) {
+    return 0;
+  }
+  return static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height) *
+         static_cast<std::size_t>(target.samples);
+}
+
+Status validate(const Target& target, std::span<const Draw> draws) noexcept {
+  OutputBuffers outputs;
+  if (const Status status = validate_target(target, outputs); status != Status::ok) return status;
+  if (null_but_not_empty(draws)) return Status::draws;
+  for (const Draw& draw : draws) {
+    if (const Status status = validate_draw(target, draw, outputs); status != Status::ok) return status;
+  }
+  return Status::ok;
+}
+
+const char* status_text(Status status) noexcept {
+  switch (status) {
+    case Status::ok:
+      return "ok";
+    case Status::out_of_memory:
+      return "out of memory";
+    case Status::target_size:
+      return "the target's width or height is outside 1..16384";
+    case Status::target_samples:
+      return "the target's samples are not 1, 2, 4, 8 or 16";
+    case Status::target_count:
+      return "the count buffer's size is not that of the target";
+    case Status::target_index:
+      return "the index buffer's size is not that of the target";
+    case Status::target_depth:
+      return "the depth buffer's size is not that of the target";
+    case Status::target_barycentrics:
+      return "the barycentrics buffer's size is not 3 floats for each sample of the target";
+    case Status::target_attributes:
+      return "an attribute target has components outside 1..4 or a wrong size, or there are over 16";
+    case Status::target_initial_depth:
+      return "the initial depth's size is not that of the target";
+    case Status::target_overlap:
+      return "an output buffer overlaps another buffer";
+    case Status::target_depth_test:
+      return "the depth test is not an enumerator of DepthTest";
+    case Status::target_attribute_location:
+      return "the attribute location is not an enumerator of AttributeLocation";
+    case Status::draws:
+      return "the list of draws is null but not empty";
+    case Status::draw_vertices:
+      return "a draw's vertex buffer is null, too large, or disagrees with the output's size";
+    case Status::draw_indices:
+      return "a draw's indices are null, no multiple of 3, or too many";
+    case Status::draw_index_out_of_range:
+      return "a draw has an index that names no vertex";
+    case Status::draw_identifiers:
+      return "a draw's identifiers are neither empty nor one for each triangle";
+    case Status::draw_first_index:
+      return "a draw's first index plus its triangles exceed 2^32 - 1";
+    case Status::draw_attributes:
+      return "a draw's attribute arrays are too few, too short, or have other components than the target";
+    case Status::draw_attribute_interpolation:
+      return "an attribute's interpolation is not an enumerator of Interpolation";
+    case Status::draw_fill_rule:
+      return "a draw's fill rule is not an enumerator of FillRule";
+    case Status::draw_front_face:
+      return "a draw's front face is not an enumerator of FrontFace";
+    case Status::draw_cull:
+      return "a draw's culling is not an enumerator of Cull";
+    case Status::draw_depth_mode:
+      return "a draw's depth mode is not an enumerator of DepthMode";
+    case Status::draw_conservative:
+      return "a conservative draw allows coverage counts alone, one sample, no depth mode and no grid";
+    case Status::draw_grid:
+      return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding";
+    case Status::unsupported_samples:
+      return "several samples a pixel are not supported yet";
+    case Status::unsupported_grid:
+      return "grid mode is not supported yet";
+    case Status::unsupported_conservative:
+      return "conservative rasterization is not supported yet";
+    case Status::viewport:
+      return "a number of the viewport is not finite, or an enumerator is unknown";
+  }
+  return "unknown status";
+}
+
+}  // namespace surefill

@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "reference.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+
+#include "bounds.hpp"
+#include "triangle.hpp"
+
+namespace surefill::reference {
+namespace {
+
+// What a caller asks for, in terms of work.
+struct Wanted {
+  bool visibility;  // who is seen: index, depth, barycentrics or attributes
+  bool shading;     // barycentrics or attributes
+};
+
+Wanted wanted_outputs(const Target& target) {
+  bool attributes = false;
+  for (const AttributeTarget& attribute : target.attributes) attributes |= !attribute.values.empty();
+  const bool shading = attributes || !target.barycentrics.empty();
+  return {shading || !target.index.empty() || !target.depth.empty(), shading};
+}
+
+// Sample positions within a pixel.
+struct SamplePattern {
+  int count;
+  SamplePosition offset[16];
+  double least, largest;
+
+  explicit SamplePattern(int samples) : count(samples), least(1), largest(0) {
+    for (int n = 0; n < samples; ++n) {
+      const SampleLocation location = sample_location(samples, n);
+      offset[n] = {location.x / 16.0, location.y / 16.0};
+      least = std::min({least, offset[n].x, offset[n].y});
+      largest = std::max({largest, offset[n].x, offset[n].y});
+    }
+  }
+};
+
+bool all_finite(const Vertex& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+std::size_t stride_of(const AttributeArray& attribute) {
+  return attribute.stride != 0 ? attribute.stride : attribute.components;
+}
+
+// B1: every number that the draw supplies for vertex v.
+bool all_finite(const Draw& draw, std::uint32_t v) {
+  if (!all_finite(draw.vertices[v])) return false;
+  for (const AttributeArray& attribute : draw.attributes) {
+    const float* values = &attribute.values[v * stride_of(attribute)];
+    for (std::uint32_t c = 0; c < attribute.components; ++c) {
+      if (!std::isfinite(values[c])) return false;
+    }
+  }
+  return true;
+}
+
+std::uint32_t index_of(const Draw& draw, std::uint32_t position) {
+  return draw.identifiers.empty() ? draw.first_index + position : draw.identifiers[position];
+}
+
+// Renders one draw: who covers, who is seen, and then what is seen.
+class DrawRenderer {
+ public:
+  // `depth` and `winner` are null if visibility is not wanted. winner[s] is the position of the triangle of this draw
+  // that is seen at sample s, or kNoTriangle; all kNoTriangle on entry.
+  DrawRenderer(const Target& target, const Draw& draw, float* depth, std::uint32_t* winner, Statistics& statistics)
+      : target_(target),
+        draw_(draw),
+        depth_(depth),
+        winner_(winner),
+        statistics_(statistics),
+        pattern_(target.samples),
+        shift_(tie_shift(draw.fill_rule)) {}
+
+  void rasterize() {
+    PixelBox limits{0, 0, target_.width, target_.height};
+    if (draw_.scissor) {
+      limits = {std::max(limits.x0, draw_.scissor->x0), std::max(limits.y0, draw_.scissor->y0),
+                std::min(limits.x1, draw_.scissor->x1), std::min(limits.y1, draw_.scissor->y1)};
+    }
+    const std::size_t triangles = draw_.indices.size() / 3;
+    for (std::size_t t = 0; t < triangles; ++t) rasterize(static_cast<std::uint32_t>(t), limits);
+  }
+
+  // Writes index, barycentrics and attributes of every sample whose winner belongs to this draw.
+  void shade(bool shading) {
+    const std::size_t pixels = static_cast<std::size_t>(target_.width) * static_cast<std::size_t>(target_.height);
+    const auto samples = static_cast<std::size_t>(pattern_.count);
+    std::uint32_t set_up = kNoTriangle;  // the triangle that triangle_ holds
+    for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+      const std::size_t first = pixel * samples;
+      for (std::size_t s = first; s < first + samples; ++s) {
+        const std::uint32_t position = winner_[s];
+        if (position == kNoTriangle) continue;
+        if (!target_.index.empty()) target_.index[s] = index_of(draw_, position);
+        if (!shading) continue;
+        if (s > first && winner_[s - 1] == position) {
+          copy_shading(s - 1, s);
+          continue;
+        }
+        if (position != set_up)
+          triangle_.set_up(corner(position, 0), corner(position, 1), corner(position, 2), unused_);
+        set_up = position;
+        const auto width = static_cast<std::size_t>(target_.width);
+        shade_sample(position, shading_position(static_cast<double>(pixel % width), static_cast<double>(pixel / width)),
+                     s);
+      }
+    }
+  }
+
+ private:
+  const Vertex& corner(std::uint32_t position, std::size_t i) const {
+    return draw_.vertices[draw_.indices[std::size_t{3} * position + i]];
+  }
+
+  void rasterize(std::uint32_t position, const PixelBox& limits) {
+    ++statistics_.triangles;
+    for (std::size_t i = 0; i < 3; ++i) {
+      if (!all_finite(draw_, draw_.indices[std::size_t{3} * position + i])) {
+        ++statistics_.dropped;
+        return;
+      }
+    }
+    const Vertex &v0 = corner(position, 0), &v1 = corner(position, 1), &v2 = corner(position, 2);
+    if (!triangle_.set_up(v0, v1, v2, statistics_)) {
+      ++statistics_.degenerate;
+      return;
+    }
+    const bool front = (triangle_.determinant() > 0) == (draw_.front_face == FrontFace::clockwise);
+    if (draw_.cull == (front ? Cull::front : Cull::back)) {
+      ++statistics_.culled;
+      return;
+    }
+    PixelBox box{0, 0, 0, 0};
+    if (!limits.empty()) box = screen_box(v0, v1, v2, limits, pattern_.least, pattern_.largest);
+    if (box.empty()) {
+      ++statistics_.outside;
+      return;
+    }
+    ++statistics_.rasterized;
+    for (int y = box.y0; y < box.y1; ++y) {
+      for (int x = box.x0; x < box.x1; ++x) {
+        std::size_t s =
+            (static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) + static_cast<std::size_t>(x)) *
+            static_cast<std::size_t>(pattern_.count);
+        for (int n = 0; n < pattern_.count; ++n, ++s) {
+          const SamplePosition p{x + pattern_.offset[n].x, y + pattern_.offset[n].y};
+          if (triangle_.covers(p, shift_, statistics_)) fragment(position, p, s);
+        }
+      }
+    }
+  }
+
+  // A covered sample: depth clip, count, depth test.
+  void fragment(std::uint32_t position, SamplePosition p, std::size_t s) {
+    float z = 0;
+    if (winner_ != nullptr || draw_.depth_mode == DepthMode::clip) {
+      if (!triangle_.depth(p, draw_.depth_mode, &z, statistics_)) return;
+    }
+    ++statistics_.covered_samples;
+    if (!target_.count.empty()) ++target_.count[s];
+    if (winner_ == nullptr || !passes(position, z, s)) return;
+    winner_[s] = position;
+    if (draw_.depth_write) depth_[s] = z;
+  }
+
+  // V1 and M5. Among equal indices the first position wins with depth write on, the last with depth write off.
+  bool passes(std::uint32_t position, float z, std::size_t s) const {
+    const bool nearer = target_.depth_test == DepthTest::less ? z < depth_[s] : z > depth_[s];
+    if (winner_[s] == kNoTriangle) return nearer;
+    if (!draw_.depth_write) return nearer && index_of(draw_, position) >= index_of(draw_, winner_[s]);
+    return nearer || (z == depth_[s] && index_of(draw_, position) < index_of(draw_, winner_[s]));
+  }
+
+  // Where the attributes of pixel (x, y) are taken (M1).
+  SamplePosition shading_position(double x, double y) {
+    const SamplePosition centre{x + 0.5, y + 0.5};
+    if (pattern_.count == 1) return centre;
+    if (target_.attribute_location == AttributeLocation::centre ? triangle_.plane_in_front(centre)
+                                                                : triangle_.covers(centre, shift_, unused_)) {
+      return centre;
+    }
+    for (int n = 0; n < pattern_.count; ++n) {
+      const SamplePosition p{x + pattern_.offset[n].x, y + pattern_.offset[n].y};
+      if (triangle_.covers(p, shift_, unused_)) return p;
+    }
+    return centre;  // not reached: the triangle is seen at a sample of this pixel
+  }
+
+  void shade_sample(std::uint32_t position, SamplePosition p, std::size_t s) {
+    if (!target_.barycentrics.empty()) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float unit[3] = {i == 0 ? 1.0f : 0.0f, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f};
+        target_.barycentrics[3 * s + i] = triangle_.attribute(p, unit, Interpolation::perspective, statistics_);
+      }
+    }
+    for (std::size_t k = 0; k < target_.attributes.size(); ++k) {
+      const AttributeTarget& out = target_.attributes[k];
+      if (out.values.empty()) continue;
+      const AttributeArray& in = draw_.attributes[k];
+      const std::size_t stride = stride_of(in);
+      for (std::size_t c = 0; c < out.components; ++c) {
+        float u[3];
+        for (std::size_t i = 0; i < 3; ++i) u[i] = in.values[draw_.indices[std::size_t{3} * position + i] * stride + c];
+        out.values[s * out.components + c] = triangle_.attribute(p, u, in.interpolation, statistics_);
+      }
+    }
+  }
+
+  // Attributes are evaluated once per pixel (M1).
+  void copy_shading(std::size_t from, std::size_t to) {
+    if (!target_.barycentrics.empty()) {
+      for (std::size_t i = 0; i < 3; ++i) target_.barycentrics[3 * to + i] = target_.barycentrics[3 * from + i];
+    }
+    for (const AttributeTarget& out : target_.attributes) {
+      if (out.values.empty()) continue;
+      for (std::size_t c = 0; c < out.components; ++c) {
+        out.values[to * out.components + c] = out.values[from * out.components + c];
+      }
+    }
+  }
+
+  const Target& target_;
+  const Draw& draw_;
+  float* depth_;
+  std::uint32_t* winner_;
+  Statistics& statistics_;
+  Statistics unused_;  // for decisions made a second time
+  SamplePattern pattern_;
+  TieShift shift_;
+  Triangle triangle_;
+};
+
+// The empty image (V1), without depth.
+void clear(const Target& target) {
+  std::fill(target.count.begin(), target.count.end(), 0u);
+  std::fill(target.index.begin(), target.index.end(), kNoTriangle);
+  std::fill(target.barycentrics.begin(), target.barycentrics.end(), 0.0f);
+  for (const AttributeTarget& attribute : target.attributes) {
+    std::fill(attribute.values.begin(), attribute.values.end(), 0.0f);
+  }
+}
+
+void clear_depth(const Target& target, float* depth, std::size_t total) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  if (target.initial_depth.empty()) {
+    std::fill(depth, depth + total, target.depth_test == DepthTest::less ? kInfinity : -kInfinity);
+  } else if (target.initial_depth.data() != depth) {
+    std::memcpy(depth, target.initial_depth.data(), total * sizeof(float));
+  }
+}
+
+}  // namespace
+
+Status render(const Target& target, std::span<const Draw> draws, Statistics& statistics) noexcept {
+  const Wanted wanted = wanted_outputs(target);
+  const std::size_t total = sample_total(target);
+  std::unique_ptr<float[]> own_depth;
+  std::unique_ptr<std::uint32_t[]> winner;
+  float* depth = nullptr;
+  if (wanted.visibility) {
+    depth = target.depth.data();
+    if (target.depth.empty()) {
+      own_depth.reset(new (std::nothrow) float[total]);
+      depth = own_depth.get();
+    }
+    winner.reset(new (std::nothrow) std::uint32_t[total]);
+    if (depth == nullptr || winner == nullptr) return Status::out_of_memory;
+    clear_depth(target, depth, total);
+  }
+  clear(target);
+  for (const Draw& draw : draws) {
+    if (winner != nullptr) std::fill(winner.get(), winner.get() + total, kNoTriangle);
+    DrawRenderer renderer(target, draw, depth, winner.get(), statistics);
+    renderer.rasterize();
+    if (winner != nullptr && (wanted.shading || !target.index.empty())) renderer.shade(wanted.shading);
+  }
+  return Status::ok;
+}
+
+}  // namespace surefill::reference

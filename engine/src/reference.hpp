@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The scalar reference path: plain portable C++, one triangle and one sample at a time. It is what the fast path is
+// held to.
+#ifndef SUREFILL_SRC_REFERENCE_HPP
+#define SUREFILL_SRC_REFERENCE_HPP
+
+#include <span>
+
+#include "surefill/surefill.hpp"
+
+namespace surefill::reference {
+
+// As surefill::render, for arguments that validate() has accepted and modes that are supported, with the floating-point
+// state already set. Returns ok or out_of_memory.
+Status render(const Target& target, std::span<const Draw> draws, Statistics& statistics) noexcept;
+
+}  // namespace surefill::reference
+
+#endif  // SUREFILL_SRC_REFERENCE_HPP

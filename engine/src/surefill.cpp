@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The public calls: check the arguments, set the floating-point state, take the path.
+#include "surefill/surefill.hpp"
+
+#include "float_environment.hpp"
+#include "reference.hpp"
+
+namespace surefill {
+namespace {
+
+// The standard sample locations of Direct3D 11 and Vulkan (S4), in 1/16 pixel.
+constexpr SampleLocation kLocations1[] = {{8, 8}};
+constexpr SampleLocation kLocations2[] = {{12, 12}, {4, 4}};
+constexpr SampleLocation kLocations4[] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};
+constexpr SampleLocation kLocations8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
+constexpr SampleLocation kLocations16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
+                                           {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
+
+Status unsupported_modes(std::span<const Draw> draws) {
+  for (const Draw& draw : draws) {
+    if (draw.grid) return Status::unsupported_grid;
+    if (draw.conservative != Conservative::none) return Status::unsupported_conservative;
+  }
+  return Status::ok;
+}
+
+}  // namespace
+
+SampleLocation sample_location(int samples, int n) noexcept {
+  if (n < 0 || n >= samples) n = 0;
+  switch (samples) {
+    case 2:
+      return kLocations2[n];
+    case 4:
+      return kLocations4[n];
+    case 8:
+      return kLocations8[n];
+    case 16:
+      return kLocations16[n];
+    default:
+      return kLocations1[0];
+  }
+}
+
+Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics) noexcept {
+  if (const Status status = validate(target, draws); status != Status::ok) return status;
+  if (const Status status = unsupported_modes(draws); status != Status::ok) return status;
+  const FloatEnvironment environment;
+  Statistics own;
+  const Status status = reference::render(target, draws, own);
+  if (statistics != nullptr) *statistics = own;
+  return status;
+}
+
+}  // namespace surefill

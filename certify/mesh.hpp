@@ -31,8 +31,8 @@ struct Mesh {
   std::vector<Float3> positions;  // the decimals of the file, each rounded once to float32
   std::vector<Float3> normals;  // one a vertex: the file's, or the sum of the adjacent faces' area vectors, of length 1
   std::vector<std::array<std::uint32_t, 3>> triangles;  // polygons are triangulated; all indices are in range
-  std::uint64_t non_finite_triangles =
-      0;  // triangles with a NaN or an infinity; they are kept, and drawing drops them (B1)
+  std::uint64_t non_finite_triangles = 0;  // with a NaN or an infinity: they are kept, and drawing drops them (B1)
+  std::uint64_t lost_triangles = 0;        // of polygons that could not be triangulated, such as those without area
 };
 
 // Reads an OBJ file. Throws MeshError: missing, a directory, unreadable, a number that is none, a face of fewer than
@@ -65,12 +65,16 @@ Camera framing_camera(const Mesh& mesh, int width, int height);
 // near and far that hold the mesh between them as seen by this eye; near is far / 10,000 at least, also from inside.
 void fit_planes(Camera& camera, const Mesh& mesh);
 
+// Throws MeshError, without a file name, if the camera looks nowhere or its numbers are out of their ranges.
+void check_camera(const Camera& camera);
+
 // The perspective projection of one position to clip space, y up, depth [0, 1]: computed in double, each component
 // rounded once to float32. Equal positions give equal bits.
 ClipVertex project(const Camera& camera, double aspect, const Float3& position);
 
 // The mesh as a scene of one draw: clip coordinates with a viewport of the whole target (S3), counter-clockwise front
-// faces, depth clipped to [0, 1], and, if `normals`, the perspective attribute "normal" of three components.
+// faces, depth clipped to [0, 1], and, if `normals`, the perspective attribute "normal" of three components. Throws as
+// check_camera.
 corpus::Scene mesh_scene(const Mesh& mesh, const Camera& camera, int width, int height, bool normals = false);
 
 }  // namespace surefill::meshes

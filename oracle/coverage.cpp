@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "oracle/coverage.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "oracle/exact.hpp"
+
+namespace surefill::oracle {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+struct Step {
+  int x, y;
+  bool x_first;
+};
+
+// C3: the infinitely small step of a fill rule.
+Step step_of(FillRule rule) {
+  switch (rule) {
+    case FillRule::top_left:
+      return {1, 1, true};
+    case FillRule::top_right:
+      return {-1, 1, true};
+    case FillRule::bottom_left:
+      return {1, -1, true};
+    case FillRule::bottom_right:
+      return {-1, -1, true};
+    case FillRule::southwards:
+      return {1, 1, false};
+    case FillRule::southwards_west:
+      return {-1, 1, false};
+    case FillRule::northwards:
+      return {1, -1, false};
+    case FillRule::northwards_west:
+      return {-1, -1, false};
+  }
+  return {1, 1, true};
+}
+
+// Sign of u v - s t: a determinant of order 3 with (0, 0, 1) as its third column.
+int sign_of_cross(double u, double s, double t, double v) {
+  return sign_of_determinant({u, t, 0}, {s, v, 0}, {0, 0, 1});
+}
+
+// A convex polygon of the screen in homogeneous integers (w > 0), for M4.
+struct Corner {
+  Integer x, y, w;
+};
+
+// The part of a convex polygon (a point and a segment are polygons too) where a x + b y + c w >= 0: exact, and not
+// empty exactly if the intersection is not.
+std::vector<Corner> clip(const std::vector<Corner>& polygon, const Integer& a, const Integer& b, const Integer& c) {
+  const auto height = [&](const Corner& p) -> Integer { return a * p.x + b * p.y + c * p.w; };
+  std::vector<Corner> kept;
+  for (std::size_t n = 0; n < polygon.size(); ++n) {
+    const Corner& p = polygon[n];
+    const Corner& q = polygon[(n + 1) % polygon.size()];
+    const Integer hp = height(p), hq = height(q);
+    if (hp >= 0) kept.push_back(p);
+    if (sgn(hp) * sgn(hq) < 0) {
+      const Integer wp = abs(hq), wq = abs(hp);  // positive weights of p and q at which the height is 0
+      kept.push_back({wp * p.x + wq * q.x, wp * p.y + wq * q.y, wp * p.w + wq * q.w});
+    }
+  }
+  return kept;
+}
+
+}  // namespace
+
+Rect intersect(const Rect& a, const Rect& b) {
+  return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+Point sample_point(int samples, int n, int x, int y) {
+  static constexpr Point k1[] = {{8, 8}};
+  static constexpr Point k2[] = {{12, 12}, {4, 4}};
+  static constexpr Point k4[] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};
+  static constexpr Point k8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
+  static constexpr Point k16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
+                                  {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
+  const Point* pattern = samples == 1 ? k1 : samples == 2 ? k2 : samples == 4 ? k4 : samples == 8 ? k8 : k16;
+  return {x * kUnits + pattern[n].x, y * kUnits + pattern[n].y};
+}
+
+Point centre(int x, int y) {
+  return {x * kUnits + kUnits / 2, y * kUnits + kUnits / 2};
+}
+
+int sign_of_determinant(const Position& m0, const Position& m1, const Position& m2) {
+  const Kernel::Point_3 eye(0, 0, 0);
+  return CGAL::orientation(eye, Kernel::Point_3(m0.x, m0.y, m0.w), Kernel::Point_3(m1.x, m1.y, m1.w),
+                           Kernel::Point_3(m2.x, m2.y, m2.w));
+}
+
+Cone::Cone(const std::array<Position, 3>& positions, FillRule rule)
+    : m_(positions), tie_{}, det_(sign_of_determinant(m_[0], m_[1], m_[2])) {
+  const Step step = step_of(rule);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Position &j = m_[(i + 1) % 3], &k = m_[(i + 2) % 3];
+    const int along_x = det_ * step.x * sign_of_cross(j.y, j.w, k.y, k.w);  // a_i = Yj Wk - Wj Yk
+    const int along_y = det_ * step.y * sign_of_cross(j.w, j.x, k.w, k.x);  // b_i = Wj Xk - Xj Wk
+    const int first = step.x_first ? along_x : along_y;
+    tie_[i] = first != 0 ? first : (step.x_first ? along_y : along_x);
+  }
+}
+
+int Cone::sign(int edge, Point p) const {
+  const std::size_t i = static_cast<std::size_t>(edge);
+  return det_ * sign_of_determinant(m_[(i + 1) % 3], m_[(i + 2) % 3], {p.x / double{kUnits}, p.y / double{kUnits}, 1});
+}
+
+int Cone::perturbed_sign(int edge, Point p) const {
+  const int at_p = sign(edge, p);
+  return at_p != 0 ? at_p : tie_[static_cast<std::size_t>(edge)];
+}
+
+bool Cone::covers(Point p) const {
+  return det_ != 0 && perturbed_sign(0, p) > 0 && perturbed_sign(1, p) > 0 && perturbed_sign(2, p) > 0;
+}
+
+bool Cone::square_within(const Rect& square) const {
+  if (det_ == 0) return false;
+  for (int edge = 0; edge < 3; ++edge) {
+    for (int n = 0; n < 4; ++n) {
+      if (sign(edge, square.corner(n)) < 0) return false;
+    }
+  }
+  return true;
+}
+
+bool Cone::square_meets(const Rect& square) const {
+  if (det_ == 0) return false;
+  std::vector<Corner> polygon = {
+      {square.x0, square.y0, 1}, {square.x1, square.y0, 1}, {square.x1, square.y1, 1}, {square.x0, square.y1, 1}};
+  std::array<float, 9> numbers{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    numbers[3 * i] = static_cast<float>(m_[i].x);
+    numbers[3 * i + 1] = static_cast<float>(m_[i].y);
+    numbers[3 * i + 2] = static_cast<float>(m_[i].w);
+  }
+  const int exponent = common_exponent(numbers);
+  std::array<Integer, 9> m;
+  for (std::size_t n = 0; n < 9; ++n) m[n] = scaled_integer(numbers[n], exponent);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = 3 * ((i + 1) % 3), k = 3 * ((i + 2) % 3);
+    const Integer a = m[j + 1] * m[k + 2] - m[j + 2] * m[k + 1];
+    const Integer b = m[j + 2] * m[k] - m[j] * m[k + 2];
+    const Integer c = m[j] * m[k + 1] - m[j + 1] * m[k];
+    polygon = clip(polygon, a * det_, b * det_, c * det_);
+  }
+  return !polygon.empty();
+}
+
+Rect Cone::bounds(int width, int height) const {
+  const Rect target{0, 0, width, height};
+  if (m_[0].w <= 0 || m_[1].w <= 0 || m_[2].w <= 0) return target;
+  // The hull of the projected vertices. Within the target a quotient in double is off by far less than a pixel, and two
+  // pixels of margin hold M4's touching squares too; beyond it the clamp loses nothing.
+  const auto pixel = [](double value, int size) { return static_cast<int>(std::clamp(value, -4.0, size + 4.0)); };
+  const auto [left, right] = std::minmax({m_[0].x / m_[0].w, m_[1].x / m_[1].w, m_[2].x / m_[2].w});
+  const auto [top, bottom] = std::minmax({m_[0].y / m_[0].w, m_[1].y / m_[1].w, m_[2].y / m_[2].w});
+  return intersect(target, {pixel(std::floor(left), width) - 2, pixel(std::floor(top), height) - 2,
+                            pixel(std::ceil(right), width) + 2, pixel(std::ceil(bottom), height) + 2});
+}
+
+}  // namespace surefill::oracle

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// From a scene to the arguments of surefill::render, and the buffers of its image.
+#include <algorithm>
+
+#include "corpus/scene.hpp"
+
+namespace surefill::corpus {
+
+// What the spans of one Draw point into.
+struct Frame::DrawStorage {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices, identifiers;
+  std::vector<float> values;  // of all attributes, interleaved: `stride` floats a vertex
+  std::vector<AttributeArray> attributes;
+};
+
+namespace {
+
+std::vector<Vertex> pixel_vertices(const SceneDraw& draw) {
+  std::vector<Vertex> vertices(draw.vertices.size());
+  if (!draw.viewport) {
+    std::transform(draw.vertices.begin(), draw.vertices.end(), vertices.begin(), [](const SceneVertex& v) {
+      return Vertex{v.x, v.y, v.z, v.w};
+    });
+    return vertices;
+  }
+  std::vector<ClipVertex> clip(draw.vertices.size());
+  std::transform(draw.vertices.begin(), draw.vertices.end(), clip.begin(), [](const SceneVertex& v) {
+    return ClipVertex{v.x, v.y, v.z, v.w};
+  });
+  const Status status = to_pixel(*draw.viewport, clip, vertices);
+  if (status != Status::ok) throw SceneError(std::string("scene: ") + status_text(status));
+  return vertices;
+}
+
+std::vector<float> interleaved_values(const SceneDraw& draw, std::size_t stride) {
+  std::vector<float> values;
+  values.reserve(draw.vertices.size() * stride);
+  for (const SceneVertex& vertex : draw.vertices) {
+    if (vertex.attributes.size() != stride) throw SceneError("scene: a vertex lacks attribute values, or has too many");
+    values.insert(values.end(), vertex.attributes.begin(), vertex.attributes.end());
+  }
+  return values;
+}
+
+}  // namespace
+
+Frame::Frame(const Scene& scene, const Outputs& outputs) : initial_depth_(scene.initial_depth) {
+  std::uint32_t stride = 0;
+  for (const SceneAttribute& attribute : scene.attributes) stride += attribute.components;
+
+  storage_.reserve(scene.draws.size());
+  draws_.reserve(scene.draws.size());
+  std::size_t triangles_before = 0;
+  for (const SceneDraw& from : scene.draws) {
+    if (!from.points.empty() || !from.lines.empty())
+      throw SceneError("scene: points and lines cannot be drawn yet (M7)");
+    DrawStorage& storage = storage_.emplace_back();
+    storage.vertices = pixel_vertices(from);
+    for (const SceneTriangle& triangle : from.triangles) {
+      storage.indices.insert(storage.indices.end(), triangle.vertices.begin(), triangle.vertices.end());
+      if (triangle.identifier) storage.identifiers.push_back(*triangle.identifier);
+    }
+    if (!storage.identifiers.empty() && storage.identifiers.size() != from.triangles.size()) {
+      throw SceneError("scene: identifiers on some triangles of a draw only");
+    }
+    storage.values = interleaved_values(from, stride);
+    std::size_t offset = 0;
+    for (const SceneAttribute& attribute : scene.attributes) {
+      const std::span<const float> values = storage.values;
+      storage.attributes.push_back(
+          {values.subspan(std::min(offset, values.size())), attribute.components, stride, attribute.interpolation});
+      offset += attribute.components;
+    }
+
+    Draw& draw = draws_.emplace_back();
+    draw.vertices = storage.vertices;
+    draw.indices = storage.indices;
+    draw.identifiers = storage.identifiers;
+    draw.first_index = from.first_index.value_or(static_cast<std::uint32_t>(triangles_before));
+    draw.attributes = storage.attributes;
+    draw.fill_rule = from.fill_rule;
+    draw.front_face = from.front_face;
+    draw.cull = from.cull;
+    draw.depth_mode = from.depth_mode;
+    draw.depth_write = from.depth_write;
+    draw.conservative = from.conservative;
+    draw.scissor = from.scissor;
+    draw.grid = from.grid;
+    draw.culling_box = from.culling_box;
+    triangles_before += from.triangles.size();
+  }
+
+  target_.width = image_.width = scene.width;
+  target_.height = image_.height = scene.height;
+  target_.samples = image_.samples = scene.samples;
+  target_.depth_test = scene.depth_test;
+  target_.attribute_location = scene.attribute_location;
+
+  // A size outside S5 has no samples here; render and validate then name it.
+  const std::size_t total = sample_total(target_);
+  if (initial_depth_.size() == 1) initial_depth_.assign(total, scene.initial_depth[0]);
+  target_.initial_depth = initial_depth_;
+
+  // A conservative draw leaves the counts as the frame's only output (M4).
+  const bool count_only = std::any_of(scene.draws.begin(), scene.draws.end(),
+                                      [](const SceneDraw& draw) { return draw.conservative != Conservative::none; });
+  if (outputs.count) image_.count.resize(total);
+  target_.count = image_.count;
+  if (count_only) return;
+  if (outputs.index) image_.index.resize(total);
+  target_.index = image_.index;
+  if (outputs.depth) image_.depth.resize(total);
+  target_.depth = image_.depth;
+  if (outputs.barycentrics) image_.barycentrics.resize(3 * total);
+  target_.barycentrics = image_.barycentrics;
+  if (!outputs.attributes) return;
+  image_.attributes.reserve(scene.attributes.size());
+  for (const SceneAttribute& attribute : scene.attributes) {
+    std::vector<float>& values = image_.attributes.emplace_back(attribute.components * total);
+    attribute_targets_.push_back({values, attribute.components});
+  }
+  target_.attributes = attribute_targets_;
+}
+
+Frame::~Frame() = default;
+
+}  // namespace surefill::corpus

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The words of the scene format for enumerators: one table for the reader and the writer. Internal to the format.
+#ifndef SUREFILL_CORPUS_NAMES_HPP
+#define SUREFILL_CORPUS_NAMES_HPP
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "surefill/surefill.hpp"
+
+namespace surefill::corpus {
+
+template <typename Enum, std::size_t Count>
+using Names = std::array<std::pair<Enum, std::string_view>, Count>;
+
+inline constexpr Names<FillRule, 8> kFillRuleNames{{{FillRule::top_left, "top-left"},
+                                                    {FillRule::top_right, "top-right"},
+                                                    {FillRule::bottom_left, "bottom-left"},
+                                                    {FillRule::bottom_right, "bottom-right"},
+                                                    {FillRule::southwards, "southwards"},
+                                                    {FillRule::southwards_west, "southwards-west"},
+                                                    {FillRule::northwards, "northwards"},
+                                                    {FillRule::northwards_west, "northwards-west"}}};
+inline constexpr Names<FrontFace, 2> kFrontFaceNames{
+    {{FrontFace::clockwise, "clockwise"}, {FrontFace::counter_clockwise, "counter-clockwise"}}};
+inline constexpr Names<Cull, 3> kCullNames{{{Cull::none, "none"}, {Cull::front, "front"}, {Cull::back, "back"}}};
+inline constexpr Names<DepthTest, 2> kDepthTestNames{{{DepthTest::less, "less"}, {DepthTest::greater, "greater"}}};
+inline constexpr Names<DepthMode, 3> kDepthModeNames{
+    {{DepthMode::none, "none"}, {DepthMode::clip, "clip"}, {DepthMode::clamp, "clamp"}}};
+inline constexpr Names<Interpolation, 3> kInterpolationNames{{{Interpolation::perspective, "perspective"},
+                                                              {Interpolation::noperspective, "noperspective"},
+                                                              {Interpolation::flat, "flat"}}};
+inline constexpr Names<AttributeLocation, 2> kAttributeLocationNames{
+    {{AttributeLocation::centre, "centre"}, {AttributeLocation::centroid, "centroid"}}};
+inline constexpr Names<Conservative, 3> kConservativeNames{
+    {{Conservative::none, "none"}, {Conservative::over, "over"}, {Conservative::inner, "inner"}}};
+inline constexpr Names<GridRounding, 3> kGridRoundingNames{{{GridRounding::nearest_even, "nearest-even"},
+                                                            {GridRounding::nearest_up, "nearest-up"},
+                                                            {GridRounding::truncate, "truncate"}}};
+inline constexpr Names<ClipDepth, 2> kClipDepthNames{
+    {{ClipDepth::zero_to_one, "zero-to-one"}, {ClipDepth::minus_one_to_one, "minus-one-to-one"}}};
+inline constexpr Names<ClipY, 2> kClipYNames{{{ClipY::up, "y-up"}, {ClipY::down, "y-down"}}};
+inline constexpr Names<bool, 2> kSwitchNames{{{true, "on"}, {false, "off"}}};
+
+}  // namespace surefill::corpus
+
+#endif  // SUREFILL_CORPUS_NAMES_HPP

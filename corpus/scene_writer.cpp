@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The writer of the scene format (docs/scene-format.md).
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "corpus/names.hpp"
+#include "corpus/scene.hpp"
+
+namespace surefill::corpus {
+namespace {
+
+class Writer {
+ public:
+  std::string write(const Scene& scene) {
+    const SceneDraw defaults;
+    write_comment(scene.comment);
+    line("surefill-scene", kSceneVersion);
+    line("target", scene.width, scene.height);
+    if (scene.samples != 1) line("samples", scene.samples);
+    if (scene.depth_test != DepthTest::less) line("depth-test", name(scene.depth_test, kDepthTestNames));
+    if (scene.attribute_location != AttributeLocation::centre) {
+      line("attribute-location", name(scene.attribute_location, kAttributeLocationNames));
+    }
+    write_initial_depth(scene.initial_depth);
+    for (const SceneAttribute& attribute : scene.attributes) {
+      line("attribute", attribute.name, attribute.components, name(attribute.interpolation, kInterpolationNames));
+    }
+    for (const SceneDraw& draw : scene.draws) write_draw(draw, defaults);
+    return std::move(text_);
+  }
+
+ private:
+  void write_comment(std::string_view comment) {
+    const auto is_control = [](char c) { return (c >= 0 && c < ' ' && c != '\t' && c != '\n') || c == 0x7f; };
+    if (std::any_of(comment.begin(), comment.end(), is_control)) {
+      throw SceneError("scene: control character in the comment");
+    }
+    while (!comment.empty()) {
+      const std::size_t size = std::min(comment.find('\n'), comment.size());
+      text_ += size == 0 ? "#" : "# ";
+      text_ += comment.substr(0, size);
+      text_ += '\n';
+      // A line break at the very end begins one more line, an empty one.
+      if (size + 1 == comment.size()) text_ += "#\n";
+      comment.remove_prefix(std::min(size + 1, comment.size()));
+    }
+  }
+
+  void write_initial_depth(const std::vector<float>& values) {
+    constexpr std::size_t kPerLine = 8;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      if (i % kPerLine == 0) text_ += i == 0 ? "initial-depth" : "\ninitial-depth";
+      append(values[i]);
+    }
+    if (!values.empty()) text_ += '\n';
+  }
+
+  void write_draw(const SceneDraw& draw, const SceneDraw& defaults) {
+    text_ += "\ndraw\n";
+    indent_ = "  ";
+    if (draw.viewport) write_viewport(*draw.viewport);
+    if (draw.fill_rule != defaults.fill_rule) line("fill-rule", name(draw.fill_rule, kFillRuleNames));
+    if (draw.front_face != defaults.front_face) line("front-face", name(draw.front_face, kFrontFaceNames));
+    if (draw.cull != defaults.cull) line("cull", name(draw.cull, kCullNames));
+    if (draw.depth_mode != defaults.depth_mode) line("depth-mode", name(draw.depth_mode, kDepthModeNames));
+    if (draw.depth_write != defaults.depth_write) line("depth-write", name(draw.depth_write, kSwitchNames));
+    if (draw.conservative != defaults.conservative) line("conservative", name(draw.conservative, kConservativeNames));
+    if (draw.scissor) line("scissor", draw.scissor->x0, draw.scissor->y0, draw.scissor->x1, draw.scissor->y1);
+    if (draw.grid) {
+      line("grid", draw.grid->bits, draw.grid->offset_x, draw.grid->offset_y,
+           name(draw.grid->rounding, kGridRoundingNames));
+    }
+    if (draw.culling_box) {
+      begin("culling-box");
+      for (const Vertex& corner : *draw.culling_box) append_all(corner.x, corner.y, corner.z, corner.w);
+      text_ += '\n';
+    }
+    if (draw.first_index) line("first-index", *draw.first_index);
+    for (const SceneVertex& vertex : draw.vertices) {
+      begin("vertex");
+      append_all(vertex.x, vertex.y, vertex.z, vertex.w);
+      for (const float value : vertex.attributes) append(value);
+      text_ += '\n';
+    }
+    for (const auto& [vertices, identifier] : draw.triangles) {
+      begin("triangle");
+      append_all(vertices[0], vertices[1], vertices[2]);
+      if (identifier) append_all("id", *identifier);
+      text_ += '\n';
+    }
+    for (const auto& [vertex, size] : draw.points) {
+      begin("point");
+      append(vertex);
+      if (size != 1) append(size);
+      text_ += '\n';
+    }
+    for (const auto& [vertices, width] : draw.lines) {
+      begin("line");
+      append_all(vertices[0], vertices[1]);
+      if (width != 1) append(width);
+      text_ += '\n';
+    }
+    indent_ = "";
+    text_ += "end\n";
+  }
+
+  void write_viewport(const Viewport& viewport) {
+    begin("viewport");
+    append_all(viewport.x, viewport.y, viewport.width, viewport.height, viewport.near_depth, viewport.far_depth);
+    const bool y_down = viewport.clip_y != ClipY::up;
+    if (y_down || viewport.clip_depth != ClipDepth::zero_to_one) append(name(viewport.clip_depth, kClipDepthNames));
+    if (y_down) append(name(viewport.clip_y, kClipYNames));
+    text_ += '\n';
+  }
+
+  template <typename Enum, std::size_t Count>
+  static std::string_view name(Enum value, const Names<Enum, Count>& names) {
+    for (const auto& [known, text] : names) {
+      if (known == value) return text;
+    }
+    throw SceneError("scene: a value that is no enumerator");
+  }
+
+  void begin(std::string_view keyword) {
+    text_ += indent_;
+    text_ += keyword;
+  }
+
+  template <typename... Fields>
+  void line(std::string_view keyword, const Fields&... fields) {
+    begin(keyword);
+    append_all(fields...);
+    text_ += '\n';
+  }
+
+  template <typename... Fields>
+  void append_all(const Fields&... fields) {
+    (append(fields), ...);
+  }
+
+  void append(std::string_view word) {
+    text_ += ' ';
+    text_ += word;
+  }
+  void append(int value) { append(std::string_view(std::to_string(value))); }
+  void append(std::uint32_t value) { append(std::string_view(std::to_string(value))); }
+
+  // Multiples of 1/16 of at most six characters are written as decimals, which then are exact; the rest as hexfloats.
+  void append(float value) {
+    constexpr std::ptrdiff_t kShort = 6;
+    if (std::isnan(value)) return append(std::string_view("nan"));
+    if (std::isinf(value)) return append(std::string_view(value < 0 ? "-inf" : "inf"));
+    std::array<char, 64> buffer{};
+    char* const begin = buffer.data();
+    char* end = nullptr;
+    if (std::fabs(value) < 1e6F && value * 16 == std::floor(value * 16)) {
+      end = std::to_chars(begin, begin + buffer.size(), value, std::chars_format::fixed).ptr;
+    }
+    if (end != nullptr && end - begin <= kShort) return append(std::string_view(begin, end));
+    end = std::to_chars(begin, begin + buffer.size(), std::fabs(value), std::chars_format::hex).ptr;
+    append(std::string_view(std::signbit(value) ? "-0x" : "0x"));
+    text_.append(begin, end);
+  }
+
+  std::string text_;
+  std::string_view indent_;
+};
+
+}  // namespace
+
+std::string write_scene(const Scene& scene) {
+  return Writer().write(scene);
+}
+
+}  // namespace surefill::corpus

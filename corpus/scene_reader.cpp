@@ -81,7 +81,7 @@ class Reader {
     if (size == rest_.npos) fail("the last line has no line break: the file is cut short");
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.size() > kMaxLineLength) fail("line longer than " + std::to_string(kMaxLineLength) + " characters");
-    const auto is_control = [](char c) { return (c >= 0 && c < ' ' && c != '\t') || c == 0x7f; };
+    const auto is_control = [](unsigned char c) { return (c < ' ' && c != '\t') || c == 0x7f; };
     if (std::any_of(line.begin(), line.end(), is_control)) fail("control character: this is not a text file");
     return true;
   }

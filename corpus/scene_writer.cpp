@@ -33,7 +33,7 @@ class Writer {
 
  private:
   void write_comment(std::string_view comment) {
-    const auto is_control = [](char c) { return (c >= 0 && c < ' ' && c != '\t' && c != '\n') || c == 0x7f; };
+    const auto is_control = [](unsigned char c) { return (c < ' ' && c != '\t' && c != '\n') || c == 0x7f; };
     if (std::any_of(comment.begin(), comment.end(), is_control)) {
       throw SceneError("scene: control character in the comment");
     }

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The image equals the exact one, output by output and as a whole.
+#include "properties/check.hpp"
+
+namespace surefill::properties {
+namespace {
+
+constexpr SceneLimits kPlain{16, 4, false, false, false, false, false};
+
+corpus::Scene random_case(std::uint64_t n, const SceneLimits& limits) {
+  return random_scene(category_of_case(n), n / categories().size(), limits);
+}
+
+corpus::Scene make_coverage(std::uint64_t n) {
+  corpus::Scene scene = random_case(n, kPlain);
+  for (corpus::SceneDraw& draw : scene.draws) draw.fill_rule = static_cast<FillRule>((n / categories().size()) % 8);
+  return scene;
+}
+
+corpus::Scene make_depth(std::uint64_t n) {
+  constexpr DepthMode kModes[] = {DepthMode::none, DepthMode::clip, DepthMode::clamp};
+  corpus::Scene scene = random_case(n, kPlain);
+  for (corpus::SceneDraw& draw : scene.draws) draw.depth_mode = kModes[(n / categories().size()) % 3];
+  return scene;
+}
+
+corpus::Scene make_values(std::uint64_t n) {
+  SceneLimits limits = kPlain;
+  limits.max_size = 8;
+  limits.attributes = true;
+  return random_case(n, limits);
+}
+
+corpus::Scene make_scene(std::uint64_t n) {
+  SceneLimits limits;
+  limits.max_size = 9;
+  limits.max_triangles = 6;
+  return random_case(n, limits);
+}
+
+Verdict decide_with(const corpus::Scene& scene, const Renderer& renderer, const corpus::Outputs& outputs) {
+  const Comparison comparison = compare(scene, oracle_renderer(), renderer, outputs, 1);
+  Verdict verdict{comparison.samples, comparison.differences, {}};
+  if (!comparison.first.empty()) verdict.finding = describe(comparison.first[0], scene.samples);
+  return verdict;
+}
+
+Verdict decide_coverage(const corpus::Scene& scene, const Renderer& renderer) {
+  return decide_with(scene, renderer, kCountOnly);
+}
+Verdict decide_depth(const corpus::Scene& scene, const Renderer& renderer) {
+  return decide_with(scene, renderer, {true, true, true, false, false});
+}
+Verdict decide_all(const corpus::Scene& scene, const Renderer& renderer) {
+  return decide_with(scene, renderer, outputs_of(scene));
+}
+
+constexpr Property kProperties[] = {
+    {"equality-coverage", "C1-C4", "every coverage count is the oracle's, under every fill rule", true, true, 0,
+     make_coverage, decide_coverage},
+    {"equality-depth", "I1, I4, I5, V1", "counts, indices and depths are the oracle's, bit for bit", true, true, 0,
+     make_depth, decide_depth},
+    {"equality-attributes", "I2-I4", "barycentrics and attributes are the oracle's, bit for bit", true, true, 0,
+     make_values, decide_all},
+    {"equality-scene", "F, V, B1, M", "whole frames with all their state are the oracle's, bit for bit", true, true, 0,
+     make_scene, decide_all},
+};
+
+}  // namespace
+
+std::span<const Property> equality_properties() { return kProperties; }
+
+}  // namespace surefill::properties

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "properties/near_zero.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <optional>
+#include <utility>
+
+namespace surefill::properties {
+namespace {
+
+// Components stay below 2^24, products of two below 2^49, the unreduced solutions below 2^100.
+using Integer = __int128;
+using IntegerVector = std::array<Integer, 3>;
+
+IntegerVector cross(const IntegerVector& a, const IntegerVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+long double dot(const IntegerVector& a, const IntegerVector& b) {
+  long double sum = 0;
+  for (std::size_t i = 0; i < 3; ++i) sum += static_cast<long double>(a[i]) * static_cast<long double>(b[i]);
+  return sum;
+}
+
+// a - q b, with q rounded to an integer: always in the lattice of a, b, however coarse q is.
+IntegerVector minus_multiple(IntegerVector a, long double q, const IntegerVector& b) {
+  const auto k = static_cast<Integer>(std::llroundl(std::clamp(q, -9e18L, 9e18L)));
+  for (std::size_t i = 0; i < 3; ++i) a[i] -= k * b[i];
+  return a;
+}
+
+struct Bezout {
+  Integer gcd, x, y;  // gcd = a x + b y, and not negative
+};
+
+Bezout extended_gcd(Integer a, Integer b) {
+  if (b == 0) return {a < 0 ? -a : a, a < 0 ? -1 : 1, 0};
+  const Bezout rest = extended_gcd(b, a % b);
+  return {rest.gcd, rest.y, rest.x - (a / b) * rest.y};
+}
+
+// A vector v with n . v = t, made as short as the lattice allows and then moved by about `reach` at random within the
+// plane of solutions. None if gcd(n) does not divide t.
+std::optional<IntegerVector> solve(const IntegerVector& n, Integer t, double reach, Random& random) {
+  const Bezout first = extended_gcd(n[0], n[1]);
+  if (first.gcd == 0 || n[2] == 0) return std::nullopt;
+  const Bezout all = extended_gcd(first.gcd, n[2]);
+  if (t % all.gcd != 0) return std::nullopt;
+
+  // Two generators of {k : n . k = 0} and one solution.
+  IntegerVector k1 = {n[1] / first.gcd, -n[0] / first.gcd, 0};
+  const Integer f = n[2] / all.gcd;
+  IntegerVector k2 = {-first.x * f, -first.y * f, first.gcd / all.gcd};
+  const Integer q = t / all.gcd;
+  IntegerVector v = {first.x * all.x * q, first.y * all.x * q, all.y * q};
+
+  // Lagrange's reduction of the basis, then Babai's of the solution.
+  for (int step = 0; step < 200; ++step) {
+    if (dot(k1, k1) > dot(k2, k2)) std::swap(k1, k2);
+    const long double ratio = dot(k1, k2) / dot(k1, k1);
+    if (std::abs(ratio) <= 0.5000001L) break;
+    k2 = minus_multiple(k2, ratio, k1);
+  }
+  for (int step = 0; step < 12; ++step) {
+    v = minus_multiple(v, dot(v, k2) / dot(k2, k2), k2);
+    v = minus_multiple(v, dot(v, k1) / dot(k1, k1), k1);
+  }
+  for (const IntegerVector& k : {k1, k2})
+    v = minus_multiple(v, (2 * random.unit() - 1) * reach / std::sqrt(static_cast<double>(dot(k, k))), k);
+  return v;
+}
+
+// float32 holds every component exactly.
+bool fits(const IntegerVector& v) {
+  return std::all_of(v.begin(), v.end(), [](Integer c) { return c < (1 << 24) && c > -(1 << 24); });
+}
+
+Vertex to_vertex(const IntegerVector& v, int exponent) {
+  const auto component = [&](std::size_t i) { return std::ldexp(static_cast<float>(static_cast<int>(v[i])), exponent); };
+  return {component(0), component(1), 0, component(2)};
+}
+
+Integer signed_bits(Random& random, int bits) { return random.between(-(1 << bits), (1 << bits) - 1); }
+
+// Twice a sample as a homogeneous integer vector (2 px, 2 py, 2).
+IntegerVector doubled_sample(Random& random, int width, int height) {
+  return {2 * random.between(0, width - 1) + 1, 2 * random.between(0, height - 1) + 1, 2};
+}
+
+double power(Random& random, double low, double high) { return std::exp2(low + (high - low) * random.unit()); }
+
+}  // namespace
+
+std::array<Vertex, 3> nearly_tied_triangle(Random& random, int width, int height) {
+  for (;;) {
+    const IntegerVector p = doubled_sample(random, width, height);
+    const IntegerVector a = {signed_bits(random, 23), signed_bits(random, 23),
+                             signed_bits(random, random.between(1, 23))};
+    const auto b = solve(cross(p, a), random.between(-4, 4), power(random, 20, 23.9), random);  // det(a, b, p) = t
+    if (!b || !fits(*b)) continue;
+    const int exponent = random.between(-60, 60);
+    // The third vertex anywhere around, so that the sample is often between the three.
+    const double w = (random.one_in(2) ? 1 : -1) * (0.1 + 1.9 * random.unit());
+    const double x = static_cast<double>(p[0]) / 2 + 400 * random.unit() - 200;
+    const double y = static_cast<double>(p[1]) / 2 + 400 * random.unit() - 200;
+    return {to_vertex(a, exponent + random.between(-20, 20)), to_vertex(*b, exponent + random.between(-20, 20)),
+            Vertex{static_cast<float>(x * w), static_cast<float>(y * w), 0, static_cast<float>(w)}};
+  }
+}
+
+std::array<Vertex, 3> nearly_degenerate_triangle(Random& random, int width, int height) {
+  for (;;) {
+    const IntegerVector p = doubled_sample(random, width, height);
+    const int bits = random.between(8, 22);
+    const IntegerVector a = {signed_bits(random, bits), signed_bits(random, bits),
+                             signed_bits(random, random.between(1, bits))};
+    const Integer m = Integer{1} << random.between(0, 8);
+    const IntegerVector b = {m * p[0] - a[0], m * p[1] - a[1], m * p[2] - a[2]};  // p lies between a and b
+    const IntegerVector n = cross(a, b);
+    const Integer g = extended_gcd(extended_gcd(n[0], n[1]).gcd, n[2]).gcd;
+    if (g == 0) continue;
+    const auto c = solve(n, g * random.between(-2, 2), power(random, 15, 23.5), random);
+    if (!c || !fits(a) || !fits(b) || !fits(*c)) continue;
+    const int exponent = random.between(-40, 40);
+    const auto spread = [&] { return exponent + random.between(-20, 20); };
+    const int ea = spread(), eb = spread(), ec = spread();
+    return {to_vertex(a, ea), to_vertex(b, eb), to_vertex(*c, ec)};
+  }
+}
+
+}  // namespace surefill::properties

@@ -253,7 +253,7 @@ TEST(Oracle, DepthIsRoundedOnce) {
     Batch far{{-8, -8, sign * kLargest, 0.5f}, {32, -8, sign * kLargest, 0.5f}, {-8, 32, sign * kLargest, 0.5f}};
     EXPECT_EQ(depths(far)[0], sign * kLargest);
   }
-  // z = (1/3) (1 - 2^-25) and more: 2^-2 (4/3) has its bits 0101...; the quotient of 1 and 3 rounds up.
+  // A quotient that is no dyadic number.
   EXPECT_EQ(depths({{-8, -8, 1, 3}, {24, -8, 1, 3}, {-8, 24, 1, 3}})[0], 1.0f / 3.0f);
 }
 
@@ -392,7 +392,7 @@ TEST(Oracle, BarycentricsAndAttributes) {
 }
 
 TEST(Oracle, NoperspectiveBeyondRangeIsTheLargest) {
-  // One vertex behind the eye: affine values grow without bound. 1 - 2 y of the largest value.
+  // One vertex behind the eye: affine values grow without bound.
   Batch batch{{0, 0, 0, 1}, {8, 0, 0, 1}, {0, 8, 0, -1}};
   batch.attribute({0, 0, -kLargest}, Interpolation::noperspective);
   Picture picture(1, 20, 1, true);
@@ -481,7 +481,7 @@ TEST(Oracle, AttributesOncePerPixel) {
   EXPECT_EQ(drawn(corner(0.5f, -1), AttributeLocation::centroid, "1.1."), 6);  // the centre's tie is lost
   // By coverage alone: samples of smaller number may be hidden.
   {
-    Batch near{{-64, -64, -1, 1}, {64, -64, -1, 1}, {0, 0.25f, -1, 1}};  // covers sample 0 only
+    Batch near{{-64, -64, -1, 1}, {64, -64, -1, 1}, {0.375f, 0.25f, -1, 1}};  // covers sample 0 only
     Batch far = corner(0.40625f, -1);
     far.vertices.insert(far.vertices.end(), near.vertices.begin(), near.vertices.end());
     far.indices = {0, 1, 2, 3, 4, 5};
@@ -556,7 +556,7 @@ TEST(Oracle, GridRoundings) {
   EXPECT_EQ(drawn(1, 4.5f, GridRounding::nearest_up, 8), ".111..");
   EXPECT_EQ(drawn(1.25f, 4.5f, GridRounding::truncate, 8), "1111..");
   EXPECT_EQ(drawn(0.0f, 4.5f, GridRounding::truncate, 8), "1111..");  // towards zero: k = 0, so 1/2
-  // One ulp beside the half: the exact quotient of 4.5 - 2^-22.. and 1.
+  // One ulp beside a tie.
   EXPECT_EQ(drawn(1.5f, std::nextafter(4.5f, 5.0f), GridRounding::nearest_even), "..111.");
 }
 
@@ -590,9 +590,7 @@ TEST(Oracle, GridOfDegenerateTriangles) {
 }
 
 TEST(Oracle, GridClampsDepthAndWeights) {
-  // x = -0.5 goes to 0 and 2.5 to 2 (even): the sample (1.5, 0.5) lies within both. With nearest_up, 0.75 goes to 1,
-  // ... The triangle of 0.625 <= x is snapped to 0.5 (offset 1/2, whole pixels): the sample (0.5, y) lies outside the
-  // unsnapped one.
+  // Offset 1/2 on whole pixels: x = 0.625 goes to 0.5, so a sample outside the unsnapped triangle is covered.
   Batch batch =
       snapped({{0.625f, -8, 0.5f, 1}, {8.5f, -8, 1, 1}, {0.625f, 32, 0.5f, 1}}, 0, GridRounding::nearest_even, 8);
   batch.attribute({3, 100, 3});

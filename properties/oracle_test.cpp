@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -662,6 +663,22 @@ TEST(Oracle, ThreadsChangeNothing) {
     EXPECT_EQ(one.index, many.index);
     EXPECT_EQ(one.depth, many.depth);
     EXPECT_EQ(one.barycentrics, many.barycentrics);
+  }
+}
+
+TEST(Oracle, CallersRoundingModeChangesNothing) {
+  Batch batch{{0.1f, 0.1f, 0.3f, 0.7f}, {9.3f, 0.2f, 0.9f, 1.1f}, {-0.3f, -8.7f, 0.1f, -0.9f}};
+  Picture expected(8, 8);
+  expected.render(batch);
+  for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {
+    Picture picture(8, 8);
+    std::fesetround(mode);
+    picture.render(batch);
+    EXPECT_EQ(std::fegetround(), mode);
+    std::fesetround(FE_TONEAREST);
+    EXPECT_EQ(picture.count, expected.count);
+    EXPECT_EQ(picture.depth, expected.depth);
+    EXPECT_EQ(picture.barycentrics, expected.barycentrics);
   }
 }
 

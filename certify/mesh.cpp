@@ -4,6 +4,7 @@
 // also reads numbers inexactly, and no NaN at all; positions and normals are therefore those of the check.
 #include "certify/mesh.hpp"
 
+#include <fmt/format.h>
 #include <tiny_obj_loader.h>
 
 #include <algorithm>
@@ -51,7 +52,7 @@ bool finite(const Float3& a) {
 }
 
 [[noreturn]] void fail(std::string_view file, std::size_t line, const std::string& cause) {
-  throw MeshError(std::string(file) + ":" + std::to_string(line) + ": " + cause);
+  throw MeshError(fmt::format("{}:{}: {}", file, line, cause));
 }
 
 // The words of a line, cut at blanks.
@@ -95,8 +96,7 @@ class Check {
 
   std::string out_of_range(Kind kind, std::uint64_t number) const {
     static constexpr const char* kNames[] = {"vertex", "texture coordinate", "normal"};
-    return "the face names " + std::string(kNames[kind]) + " " + std::to_string(number) + ", but the file has " +
-           std::to_string(counts_[kind]);
+    return fmt::format("the face names {} {}, but the file has {}", kNames[kind], number, counts_[kind]);
   }
 
   float number(std::string_view word) const {
@@ -105,14 +105,14 @@ class Check {
     float value = 0;
     const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end != digits.data() + digits.size() || error == std::errc::invalid_argument) {
-      fail(file_, line_, "\"" + std::string(word) + "\" is not a number");
+      fail(file_, line_, fmt::format("\"{}\" is not a number", word));
     }
     // Out of range: from_chars leaves the value alone. As IEEE 754 rounds: tiny becomes 0, huge an infinity.
     if (error == std::errc::result_out_of_range) {
       double wide = 0;
       const auto wide_error = std::from_chars(digits.data(), digits.data() + digits.size(), wide).ec;
       if (wide_error != std::errc()) {
-        fail(file_, line_, "\"" + std::string(word) + "\" is out of the range of numbers");
+        fail(file_, line_, fmt::format("\"{}\" is out of the range of numbers", word));
       }
       value = static_cast<float>(wide);
     }
@@ -121,7 +121,7 @@ class Check {
 
   Float3 three(const std::vector<std::string_view>& words, const char* what) const {
     if (words.size() < 4) {
-      fail(file_, line_, std::string(what) + " needs three numbers, found " + std::to_string(words.size() - 1));
+      fail(file_, line_, fmt::format("{} needs three numbers, found {}", what, words.size() - 1));
     }
     for (std::size_t i = 4; i < words.size(); ++i) (void)number(words[i]);
     return {number(words[1]), number(words[2]), number(words[3])};
@@ -131,11 +131,11 @@ class Check {
     std::int64_t value = 0;
     const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
     if (error != std::errc() || end != word.data() + word.size() || value == 0) {
-      fail(file_, line_, "\"" + std::string(word) + "\" is not a vertex number (they count from 1)");
+      fail(file_, line_, fmt::format("\"{}\" is not a vertex number (they count from 1)", word));
     }
     if (value < 0) {
       if (static_cast<std::uint64_t>(-(value + 1)) >= counts_[kind]) {
-        fail(file_, line_, "the face names vertex " + std::to_string(value) + " before there are so many");
+        fail(file_, line_, fmt::format("the face names vertex {} before there are so many", value));
       }
     } else if (static_cast<std::uint64_t>(value) > counts_[kind]) {
       if (value > std::numeric_limits<int>::max())
@@ -146,7 +146,7 @@ class Check {
 
   void check_face(const std::vector<std::string_view>& words) {
     if (words.size() < 4) {
-      fail(file_, line_, "a face needs three vertices, found " + std::to_string(words.size() - 1));
+      fail(file_, line_, fmt::format("a face needs three vertices, found {}", words.size() - 1));
     }
     std::size_t shape = 0;  // which of the three references the first corner has, the others must have, too
     for (std::size_t i = 1; i < words.size(); ++i) {
@@ -159,15 +159,15 @@ class Check {
           check_reference(static_cast<Kind>(kind), word);
           has |= std::size_t{1} << kind;
         } else if (kind != texture || slash == std::string_view::npos) {
-          fail(file_, line_, "\"" + std::string(words[i]) + "\" is no corner of a face");
+          fail(file_, line_, fmt::format("\"{}\" is no corner of a face", words[i]));
         }
         if (slash == std::string_view::npos) break;
-        if (kind == normal) fail(file_, line_, "\"" + std::string(words[i]) + "\" is no corner of a face");
+        if (kind == normal) fail(file_, line_, fmt::format("\"{}\" is no corner of a face", words[i]));
         rest.remove_prefix(slash + 1);
       }
       if (i == 1) shape = has;
       if (has != shape) {
-        fail(file_, line_, "\"" + std::string(words[i]) + "\" names other things than the face's first corner");
+        fail(file_, line_, fmt::format("\"{}\" names other things than the face's first corner", words[i]));
       }
     }
     triangles += words.size() - 3;
@@ -197,7 +197,7 @@ class Check {
           "hole",     "scrv",     "sp",         "end",       "con",   "mg",     "bevel",  "lod",    "call",
           "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech",  "usemap", "maplib", "vw"};
       if (std::find(std::begin(kOther), std::end(kOther), words[0]) == std::end(kOther)) {
-        fail(file_, line_, "\"" + std::string(words[0].substr(0, 40)) + "\" is no OBJ statement");
+        fail(file_, line_, fmt::format("\"{}\" is no OBJ statement", words[0].substr(0, 40)));
       }
     }
   }

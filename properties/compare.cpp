@@ -64,6 +64,7 @@ Renderer engine_renderer() {
 
 Renderer oracle_renderer() {
   return [](const Target& target, std::span<const Draw> draws) {
+    if (const Status status = validate(target, draws); status != Status::ok) return status;
     oracle::render(target, draws);
     return Status::ok;
   };
@@ -71,6 +72,7 @@ Renderer oracle_renderer() {
 
 Renderer clipped_oracle_renderer() {
   return [](const Target& target, std::span<const Draw> draws) {
+    if (const Status status = validate(target, draws); status != Status::ok) return status;
     oracle::clipped::render(target, draws);
     return Status::ok;
   };
@@ -104,8 +106,9 @@ Comparison compare(const corpus::Scene& scene, const corpus::Image& expected, co
   }
   for (std::size_t k = 0; k < expected.attributes.size(); ++k) {
     const bool named = k < scene.attributes.size();
-    compare_buffer(named ? scene.attributes[k].name : "attribute " + std::to_string(k), expected.attributes[k],
-                   actual.attributes[k], expected, named ? scene.attributes[k].components : 1, keep, result);
+    compare_buffer(named ? scene.attributes[k].name : std::string("attribute ").append(std::to_string(k)),
+                   expected.attributes[k], actual.attributes[k], expected, named ? scene.attributes[k].components : 1,
+                   keep, result);
   }
   return result;
 }
@@ -139,15 +142,25 @@ std::string describe(const Difference& difference, int samples) {
   if (difference.output == "status") {
     return "status: expected \"" + difference.expected + "\", got \"" + difference.actual + "\"";
   }
-  std::string place = " at pixel (" + std::to_string(difference.x) + ", " + std::to_string(difference.y) + ")";
-  if (samples > 1) place += " sample " + std::to_string(difference.sample);
-  std::string name = difference.output;
-  if (name == "barycentrics") {
-    name = "barycentric b" + std::to_string(difference.component);
+  std::string line = difference.output;
+  if (line == "barycentrics") {
+    line = "barycentric b";
+    line += std::to_string(difference.component);
   } else if (difference.component > 0) {
-    name += "[" + std::to_string(difference.component) + "]";
+    line += '[';
+    line += std::to_string(difference.component);
+    line += ']';
   }
-  return name + place + ": expected " + difference.expected + ", got " + difference.actual;
+  line += " at pixel (";
+  line += std::to_string(difference.x);
+  line += ", ";
+  line += std::to_string(difference.y);
+  line += ')';
+  if (samples > 1) {
+    line += " sample ";
+    line += std::to_string(difference.sample);
+  }
+  return line + ": expected " + difference.expected + ", got " + difference.actual;
 }
 
 }  // namespace surefill::properties

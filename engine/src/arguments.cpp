@@ -235,6 +235,10 @@ const char* status_text(Status status) noexcept {
       return "conservative rasterization is not supported yet";
     case Status::viewport:
       return "a number of the viewport is not finite, or an enumerator is unknown";
+    case Status::options_threads:
+      return "the number of threads is outside 1..256";
+    case Status::options_path:
+      return "the path is not an enumerator of Path";
   }
   return "unknown status";
 }

@@ -166,7 +166,6 @@ class DrawRenderer {
     if (winner_ != nullptr || draw_.depth_mode == DepthMode::clip) {
       if (!triangle_.depth(p, draw_.depth_mode, &z, statistics_)) return;
     }
-    ++statistics_.covered_samples;
     if (!target_.count.empty()) ++target_.count[s];
     if (winner_ == nullptr || !passes(position, z, s)) return;
     winner_[s] = position;

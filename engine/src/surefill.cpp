@@ -5,6 +5,7 @@
 
 #include "float_environment.hpp"
 #include "reference.hpp"
+#include "tiles.hpp"
 
 namespace surefill {
 namespace {
@@ -25,6 +26,16 @@ Status unsupported_modes(std::span<const Draw> draws) {
   return Status::ok;
 }
 
+Status draw(const Target& target, std::span<const Draw> draws, const Options& options, Statistics& statistics) {
+#if !defined(SUREFILL_REFERENCE_ONLY)
+  if (options.path == Path::automatic && fast::supports(target, draws)) {
+    return fast::render(target, draws, options.threads, statistics);
+  }
+#endif
+  statistics.path = "reference";
+  return reference::render(target, draws, statistics);
+}
+
 }  // namespace
 
 SampleLocation sample_location(int samples, int n) noexcept {
@@ -43,12 +54,15 @@ SampleLocation sample_location(int samples, int n) noexcept {
   }
 }
 
-Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics) noexcept {
+Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
+              const Options& options) noexcept {
+  if (options.threads < 1 || options.threads > kMaxThreads) return Status::options_threads;
+  if (options.path > Path::reference) return Status::options_path;
   if (const Status status = validate(target, draws); status != Status::ok) return status;
   if (const Status status = unsupported_modes(draws); status != Status::ok) return status;
   const FloatEnvironment environment;
   Statistics own;
-  const Status status = reference::render(target, draws, own);
+  const Status status = draw(target, draws, options, own);
   if (statistics != nullptr) *statistics = own;
   return status;
 }

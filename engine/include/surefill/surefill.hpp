@@ -71,6 +71,8 @@ enum class Status : std::uint32_t {
   unsupported_grid,              //
   unsupported_conservative,      //
   viewport,                      // a viewport number that is not finite
+  options_threads,               // a number of threads outside 1..kMaxThreads
+  options_path,                  // not an enumerator of Path
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
@@ -193,14 +195,31 @@ struct Statistics {
   std::uint64_t outside = 0;     // not culled, but no sample of the target lies in the triangle's screen box
   std::uint64_t rasterized = 0;  // the rest
 
-  std::uint64_t covered_samples = 0;  // sum of the coverage counts
-  // Signs of edge functions and of D by the rung of the ladder that settled them.
+  // Signs of edge functions and of D by the rung of the ladder that settled them; on the fast path, of edge functions
+  // only where its integers were uncertain.
   std::uint64_t signs_by_filter = 0;     // double arithmetic with an error bound
   std::uint64_t signs_by_residual = 0;   // double arithmetic proved exact, real ties among them
   std::uint64_t signs_by_expansion = 0;  // exact expansions
-  // Values (depths, weights, attributes, clip decisions) in the same way.
+  // Values (depths, weights, attributes, clip decisions) in the same way; depths of the fast path only where it was
+  // uncertain.
   std::uint64_t values_by_filter = 0;
   std::uint64_t values_by_expansion = 0;
+
+  const char* path = "";  // what drew the frame: "reference", or the fast path's instruction set; a string constant
+};
+
+// Who draws. Both paths give the same image.
+enum class Path : std::uint8_t {
+  automatic,  // the fast path where it can: one sample a pixel, no grid, not conservative, depth write on; else the
+              // reference path
+  reference,  // the scalar reference path, on one thread
+};
+
+inline constexpr int kMaxThreads = 256;
+
+struct Options {
+  int threads = 1;  // 1..kMaxThreads; if fewer can be started, fewer do the work
+  Path path = Path::automatic;
 };
 
 // The number of samples of a target: width * height * samples. 0 if a size is outside S5.
@@ -208,7 +227,8 @@ std::size_t sample_total(const Target& target) noexcept;
 
 // Draws a frame: the draws in order, each onto the image of those before it [V3]. Nothing is written unless the status
 // is ok, or out_of_memory (then the buffers asked for hold unspecified values). `statistics` may be null.
-Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics = nullptr) noexcept;
+Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics = nullptr,
+              const Options& options = {}) noexcept;
 
 // Checks the arguments of render as render does, and draws nothing. `unsupported_*` is not reported.
 Status validate(const Target& target, std::span<const Draw> draws) noexcept;

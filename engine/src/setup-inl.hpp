@@ -35,7 +35,8 @@ struct BatchVertices {
     }
   }
   void Repeat(std::uint32_t first_unused) {
-    for (std::uint32_t lane = first_unused; lane < kBatch; ++lane) {
+    for (std::uint32_t lane = 1; lane < kBatch; ++lane) {
+      if (lane < first_unused) continue;
       for (auto& corner : v) std::memcpy(&corner[4 * lane], &corner[0], sizeof(Vertex));
     }
   }

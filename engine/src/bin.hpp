@@ -41,16 +41,10 @@ struct BinBuffers {
   float* block_far = nullptr;       // no depth in the block is larger
 };
 
-// A triangle of a chunk, packed: number within the chunk, whether D < 0, whether a W is not positive.
+// A triangle in a bin: its number within the chunk, and whether this is the bin that its box begins in.
 struct BinEntry {
-  std::uint32_t bits;
-  static constexpr std::uint32_t kNumberBits = 30;
-  std::uint32_t number() const { return bits & ((1u << kNumberBits) - 1); }
-  bool negative() const { return (bits >> 31) != 0; }
-  bool mixed() const { return (bits >> 30 & 1) != 0; }
-  static BinEntry make(std::uint32_t number, bool negative, bool mixed) {
-    return {number | (negative ? 1u << 31 : 0) | (mixed ? 1u << 30 : 0)};
-  }
+  std::uint32_t number : 31;
+  std::uint32_t home : 1;
 };
 
 // Triangles of one draw to be drawn into one bin.
@@ -65,20 +59,15 @@ struct BinJob {
   bool greater;
 };
 
-// What phase one finds out about a triangle.
-struct Classified {
-  PixelBox box;  // pixels that it may cover; empty if it is not drawn
-  bool negative, mixed;
-};
-
-// Phase one: facing and boxes of the triangles [first, first + count) of a draw, count <= kBatch. Statistics are
-// counted here.
-constexpr std::uint32_t kBatch = 8;
+constexpr std::uint32_t kBatch = 8;  // triangles that are set up together
 
 // The vector code for one instruction set.
 struct Kernels {
-  void (*classify)(const Draw& draw, bool check_attributes, std::uint32_t first, std::uint32_t count,
-                   const PixelBox& limits, Classified* out, Statistics& statistics);
+  // Phase one: boxes of the triangles [first, first + count) of a draw, count <= kBatch; empty if there is nothing to
+  // draw.
+  void (*find_boxes)(const Draw& draw, bool check_attributes, std::uint32_t first, std::uint32_t count,
+                     const PixelBox& limits, PixelBox* out, Statistics& statistics);
+  // Phase two: all triangles of a bin.
   void (*rasterize)(const BinJob& job, Statistics& statistics);
   const char* name;
 };

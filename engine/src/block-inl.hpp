@@ -78,11 +78,11 @@ class Rasterizer {
     for (std::size_t begin = 0; begin < job_.entries.size(); begin += kBatch) {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kBatch, job_.entries.size() - begin));
       entries_ = &job_.entries[begin];
-      SetUp(job_, entries_, count, kVisibility, batch_);
+      SetUp(job_, entries_, count, kVisibility, batch_, statistics_);
       for (std::uint32_t live = batch_.live; live != 0; live &= live - 1) {
         lane_ = static_cast<std::uint32_t>(__builtin_ctz(live));
         exact_ready_ = false;
-        position_ = job_.chunk_begin + entries_[lane_].number();
+        position_ = job_.chunk_begin + entries_[lane_].number;
         if (kVisibility) LoadPlane();
         if ((batch_.small >> lane_ & 1) != 0) {
           Small();

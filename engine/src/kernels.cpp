@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
 
 const Kernels* ThisTarget() {
-  static const Kernels kernels{Classify, Rasterize, hwy::TargetName(HWY_TARGET)};
+  static const Kernels kernels{FindBoxes, Rasterize, hwy::TargetName(HWY_TARGET)};
   return &kernels;
 }
 

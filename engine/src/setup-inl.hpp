@@ -25,19 +25,13 @@ using IntTag = hn::Rebind<std::int32_t, DoubleTag>;
 using Double = hn::Vec<DoubleTag>;
 using Float = hn::Vec<FloatTag>;
 
-// The vertices of a batch, vertex k of triangle l at [k][4 l]. Lanes beyond the last triangle repeat the first.
+// The vertices of a batch, vertex k of triangle l at [k][4 l].
 struct BatchVertices {
   alignas(64) float v[3][4 * kBatch];
 
   void Load(const Draw& draw, std::uint32_t lane, std::uint32_t triangle) {
     for (std::size_t k = 0; k < 3; ++k) {
       std::memcpy(&v[k][4 * lane], &draw.vertices[draw.indices[std::size_t{3} * triangle + k]], sizeof(Vertex));
-    }
-  }
-  void Repeat(std::uint32_t first_unused) {
-    for (std::uint32_t lane = 1; lane < kBatch; ++lane) {
-      if (lane < first_unused) continue;
-      for (auto& corner : v) std::memcpy(&corner[4 * lane], &corner[0], sizeof(Vertex));
     }
   }
   Vertex Get(std::size_t k, std::uint32_t lane) const {
@@ -48,16 +42,19 @@ struct BatchVertices {
 // The low Lanes bits: which lanes are set.
 template <class D, class M>
 HWY_INLINE std::uint32_t Bits(D d, M mask) {
+#if HWY_TARGET == HWY_AVX3
+  (void)d;
+  return static_cast<std::uint32_t>(mask.raw);
+#elif HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  (void)d;
+  return static_cast<std::uint32_t>(hn::detail::BitsFromMask(mask));
+#else
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
   std::uint32_t bits;
   std::memcpy(&bits, bytes, sizeof bits);
   return bits;
-}
-
-HWY_INLINE auto Finite(Float v) {
-  const FloatTag d;
-  return hn::Le(hn::Abs(v), hn::Set(d, std::numeric_limits<float>::max()));
+#endif
 }
 
 // What a triangle of which all W > 0 reaches along one axis, as in reach() but in float32: division and subtraction are
@@ -86,6 +83,12 @@ HWY_INLINE Corner LoadCorner(const BatchVertices& vertices, std::size_t k, std::
   Corner corner;
   hn::LoadInterleaved4(d, &vertices.v[k][4 * lane], corner.x, corner.y, corner.z, corner.w);
   return corner;
+}
+
+// Lanes where a W is not positive.
+HWY_INLINE hn::Mask<FloatTag> MixedLanes(const Corner (&v)[3]) {
+  const Float zero = hn::Zero(FloatTag());
+  return hn::Not(hn::And(hn::And(hn::Gt(v[0].w, zero), hn::Gt(v[1].w, zero)), hn::Gt(v[2].w, zero)));
 }
 
 // Boxes of the lanes, in pixels: [x0, x1) x [y0, y1).
@@ -124,78 +127,38 @@ bool AttributesFinite(const Draw& draw, std::uint32_t triangle) {
   return true;
 }
 
-void Classify(const Draw& draw, bool check_attributes, std::uint32_t first, std::uint32_t count, const PixelBox& limits,
-              Classified* out, Statistics& statistics) {
-  const DoubleTag dd;
+// Boxes of the triangles [first, first + count), count <= kBatch; empty if the triangle is dropped or reaches no
+// sample.
+void FindBoxes(const Draw& draw, bool check_attributes, std::uint32_t first, std::uint32_t count,
+               const PixelBox& limits, PixelBox* out, Statistics& statistics) {
   const FloatTag df;
   BatchVertices vertices;
-  for (std::uint32_t lane = 0; lane < count; ++lane) vertices.Load(draw, lane, first + lane);
-  vertices.Repeat(count);
-
+  for (std::uint32_t lane = 0; lane < kBatch; ++lane) vertices.Load(draw, lane, first + (lane < count ? lane : 0));
   BatchBoxes boxes;
-  std::uint32_t finite = 0, mixed = 0, negative = 0, certain = 0;
-  for (std::uint32_t lane = 0; lane < kBatch; lane += static_cast<std::uint32_t>(hn::Lanes(dd))) {
+  std::uint32_t finite = 0, mixed = 0;
+  for (std::uint32_t lane = 0; lane < kBatch; lane += static_cast<std::uint32_t>(hn::Lanes(df))) {
     const Corner v[3] = {LoadCorner(vertices, 0, lane), LoadCorner(vertices, 1, lane), LoadCorner(vertices, 2, lane)};
-    auto finite_lanes = hn::And(Finite(v[0].x), Finite(v[0].y));
-    Double x[3], y[3], w[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      finite_lanes = hn::And(finite_lanes,
-                             hn::And(hn::And(Finite(v[k].x), Finite(v[k].y)), hn::And(Finite(v[k].z), Finite(v[k].w))));
-      x[k] = hn::PromoteTo(dd, v[k].x);
-      y[k] = hn::PromoteTo(dd, v[k].y);
-      w[k] = hn::PromoteTo(dd, v[k].w);
+    const auto largest = hn::Set(df, std::numeric_limits<float>::max());
+    auto finite_lanes = hn::Le(hn::Abs(v[0].x), largest);
+    for (const Corner& corner : v) {
+      for (const Float c : {corner.x, corner.y, corner.z, corner.w}) {
+        finite_lanes = hn::And(finite_lanes, hn::Le(hn::Abs(c), largest));
+      }
     }
-    const auto zero = hn::Zero(df);
-    const auto mixed_lanes = hn::Not(
-        hn::And(hn::And(hn::Gt(v[0].w, zero), hn::Gt(v[1].w, zero)), hn::And(hn::Gt(v[2].w, zero), finite_lanes)));
-    boxes.Compute(v, mixed_lanes, lane, limits);
-    // D as in determinant_sign().
-    const Double ax = hn::Mul(hn::Sub(hn::Mul(y[1], w[2]), hn::Mul(w[1], y[2])), x[0]);
-    const Double by = hn::Mul(hn::Sub(hn::Mul(w[1], x[2]), hn::Mul(x[1], w[2])), y[0]);
-    const Double cw = hn::Mul(hn::Sub(hn::Mul(x[1], y[2]), hn::Mul(y[1], x[2])), w[0]);
-    const Double d = hn::Add(hn::Add(ax, by), cw);
-    const Double magnitude = hn::Add(hn::Add(hn::Abs(ax), hn::Abs(by)), hn::Abs(cw));
-    certain |= Bits(dd, hn::Gt(hn::Abs(d), hn::Mul(magnitude, hn::Set(dd, kEdgeErrorBound)))) << lane;
-    negative |= Bits(dd, hn::Lt(d, hn::Zero(dd))) << lane;
+    const auto mixed_lanes = MixedLanes(v);
+    boxes.Compute(v, hn::Or(mixed_lanes, hn::Not(finite_lanes)), lane, limits);
     finite |= Bits(df, finite_lanes) << lane;
     mixed |= Bits(df, mixed_lanes) << lane;
   }
-
+  statistics.triangles += count;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
-    Classified& result = out[lane];
-    result.box = {0, 0, 0, 0};
-    ++statistics.triangles;
+    out[lane] = (mixed >> lane & 1) != 0 ? MixedBox(vertices, lane, limits) : boxes.Get(lane);
     if ((finite >> lane & 1) == 0 || (check_attributes && !AttributesFinite(draw, first + lane))) {
       ++statistics.dropped;
-      continue;
-    }
-    result.negative = (negative >> lane & 1) != 0;
-    result.mixed = (mixed >> lane & 1) != 0;
-    if ((certain >> lane & 1) != 0) {
-      ++statistics.signs_by_filter;
-    } else {
-      const EdgeFunction edge(vertices.Get(1, lane), vertices.Get(2, lane));
-      const int sign = determinant_sign(edge, vertices.Get(0, lane), statistics);
-      if (sign == 0) {
-        ++statistics.degenerate;
-        continue;
-      }
-      result.negative = sign < 0;
-    }
-    const bool front = !result.negative == (draw.front_face == FrontFace::clockwise);
-    if (draw.cull == (front ? Cull::front : Cull::back)) {
-      ++statistics.culled;
-      continue;
-    }
-    const PixelBox box = limits.empty() ? PixelBox{0, 0, 0, 0}
-                         : result.mixed ? MixedBox(vertices, lane, limits)
-                                        : boxes.Get(lane);
-    if (box.empty()) {
+      out[lane] = {0, 0, 0, 0};
+    } else if (out[lane].empty()) {
       ++statistics.outside;
-      continue;
     }
-    ++statistics.rasterized;
-    result.box = box;
   }
 }
 
@@ -211,7 +174,7 @@ struct Batch {
   // Depth at that sample, its steps, and a bound of the error at any sample of the box; smaller is nearer (negated for
   // greater).
   alignas(64) double z[kBatch], z_x[kBatch], z_y[kBatch], z_error[kBatch];
-  std::uint32_t live, small, slow_depth, clip;
+  std::uint32_t live, small, slow_depth, clip, negative, degenerate;
 
   // The first sample of the first cell.
   int OriginX(std::size_t lane) const { return boxes.first_x[lane] & ~3; }
@@ -239,24 +202,56 @@ constexpr int kTileExponent = 22;      // 63 * 2 * 2^23 < 2^30
 // for the start, and less than 2^-8 for the double arithmetic before (docs/precision.md).
 constexpr std::int32_t kSmallBound = 16, kTileBound = 64;
 
+// The signs of D in the uncertain lanes, exactly; degenerate lanes are noted in batch.degenerate.
+HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(Batch& batch, std::uint32_t first_lane, std::uint32_t uncertain,
+                                            hn::Mask<DoubleTag> negative, Statistics& statistics) {
+  const DoubleTag dd;
+  alignas(64) double signs[kBatch];
+  hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
+  for (uncertain &= batch.live; uncertain != 0; uncertain &= uncertain - 1) {
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(uncertain));
+    const EdgeFunction edge(batch.vertices.Get(1, lane), batch.vertices.Get(2, lane));
+    const int sign = determinant_sign(edge, batch.vertices.Get(0, lane), statistics);
+    signs[lane - first_lane] = sign < 0 ? -1 : 1;
+    if (sign == 0) batch.degenerate |= 1u << lane;
+  }
+  return hn::Lt(hn::Load(dd, signs), hn::Zero(dd));
+}
+
+// Takes degenerate and culled lanes out of batch.live (C1, F2). Each triangle is counted in its home bin, the one its
+// box begins in.
+HWY_INLINE void CullAndCount(const BinJob& job, const BinEntry* entries, std::uint32_t count, Batch& batch,
+                             Statistics& statistics) {
+  const std::uint32_t all = (1u << count) - 1;
+  const Draw& draw = *job.draw;
+  std::uint32_t culled = 0;
+  if (draw.cull != Cull::none) {
+    const std::uint32_t front = draw.front_face == FrontFace::clockwise ? ~batch.negative : batch.negative;
+    culled = (draw.cull == Cull::front ? front : ~front) & all & ~batch.degenerate;
+  }
+  std::uint32_t home = 0;
+  for (std::uint32_t lane = 0; lane < count; ++lane) home |= static_cast<std::uint32_t>(entries[lane].home) << lane;
+  const auto ones = [home](std::uint32_t lanes) {
+    return static_cast<std::uint64_t>(__builtin_popcount(lanes & home));
+  };
+  statistics.degenerate += ones(batch.degenerate);
+  statistics.culled += ones(culled);
+  statistics.rasterized += ones(all & ~batch.degenerate & ~culled);
+  batch.live &= ~(batch.degenerate | culled);
+}
+
 // Sets up `count` entries. Lanes whose box in the region is empty are not live.
-HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_t count, bool depth, Batch& batch) {
+HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_t count, bool depth, Batch& batch,
+                        Statistics& statistics) {
   const DoubleTag dd;
   const FloatTag df;
   const IntTag di;
   const Draw& draw = *job.draw;
-  std::uint32_t negative = 0, mixed = 0;
-  for (std::uint32_t lane = 0; lane < count; ++lane) {
-    batch.vertices.Load(draw, lane, job.chunk_begin + entries[lane].number());
-    negative |= static_cast<std::uint32_t>(entries[lane].negative()) << lane;
-    mixed |= static_cast<std::uint32_t>(entries[lane].mixed()) << lane;
+  for (std::uint32_t lane = 0; lane < kBatch; ++lane) {
+    batch.vertices.Load(draw, lane, job.chunk_begin + entries[lane < count ? lane : 0].number);
   }
-  batch.vertices.Repeat(count);
   batch.live = (1u << count) - 1;
-  batch.small = batch.slow_depth = batch.clip = 0;
-
-  alignas(64) double sign_of_d[kBatch];
-  for (std::uint32_t lane = 0; lane < kBatch; ++lane) sign_of_d[lane] = (negative >> lane & 1) != 0 ? -1.0 : 1.0;
+  batch.small = batch.slow_depth = batch.clip = batch.negative = batch.degenerate = 0;
 
   for (std::uint32_t lane = 0; lane < kBatch; lane += static_cast<std::uint32_t>(hn::Lanes(dd))) {
     const Corner v[3] = {LoadCorner(batch.vertices, 0, lane), LoadCorner(batch.vertices, 1, lane),
@@ -265,7 +260,7 @@ HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_
     const auto mixed_lanes =
         hn::Not(hn::And(hn::And(hn::Gt(v[0].w, zero), hn::Gt(v[1].w, zero)), hn::Gt(v[2].w, zero)));
     batch.boxes.Compute(v, mixed_lanes, lane, job.region);
-    for (std::uint32_t m = mixed >> lane & ((1u << hn::Lanes(dd)) - 1); m != 0; m &= m - 1) {
+    for (std::uint32_t m = Bits(df, mixed_lanes); m != 0; m &= m - 1) {
       const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(m));
       const PixelBox box = MixedBox(batch.vertices, l, job.region);
       batch.boxes.first_x[l] = box.x0, batch.boxes.last_x[l] = box.x1 - 1;
@@ -280,11 +275,10 @@ HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_
     batch.live &= ~(Bits(di, empty) << lane);
     batch.small |= Bits(di, is_small) << lane;
 
-    // Edge functions, with the sign of D taken out.
+    // Edge functions at the origin, and D = sum W_i E_i taken there, where little cancels.
     const Double half = hn::Set(dd, 0.5), bound = hn::Set(dd, kEdgeErrorBound);
     const Double px = hn::Add(hn::PromoteTo(dd, origin_x), half), py = hn::Add(hn::PromoteTo(dd, origin_y), half);
-    const Double d_sign = hn::Load(dd, sign_of_d + lane);
-    Double x[3], y[3], w[3], a[3], b[3], e[3], error[3];
+    Double x[3], y[3], w[3], a[3], b[3], c[3], e[3], error[3], det = hn::Zero(dd), det_error = det;
     for (std::size_t k = 0; k < 3; ++k) {
       x[k] = hn::PromoteTo(dd, v[k].x);
       y[k] = hn::PromoteTo(dd, v[k].y);
@@ -292,34 +286,49 @@ HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_
     }
     for (std::size_t i = 0; i < 3; ++i) {
       const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-      a[i] = hn::Mul(d_sign, hn::Sub(hn::Mul(y[j], w[k]), hn::Mul(w[j], y[k])));
-      b[i] = hn::Mul(d_sign, hn::Sub(hn::Mul(w[j], x[k]), hn::Mul(x[j], w[k])));
-      const Double c = hn::Mul(d_sign, hn::Sub(hn::Mul(x[j], y[k]), hn::Mul(y[j], x[k])));
+      a[i] = hn::Sub(hn::Mul(y[j], w[k]), hn::Mul(w[j], y[k]));
+      b[i] = hn::Sub(hn::Mul(w[j], x[k]), hn::Mul(x[j], w[k]));
+      c[i] = hn::Sub(hn::Mul(x[j], y[k]), hn::Mul(y[j], x[k]));
       const Double ax = hn::Mul(a[i], px), by = hn::Mul(b[i], py);
-      e[i] = hn::Add(hn::Add(ax, by), c);
-      error[i] = hn::Mul(bound, hn::Add(hn::Add(hn::Abs(ax), hn::Abs(by)), hn::Abs(c)));
+      e[i] = hn::Add(hn::Add(ax, by), c[i]);
+      error[i] = hn::Mul(bound, hn::Add(hn::Add(hn::Abs(ax), hn::Abs(by)), hn::Abs(c[i])));
+      const Double we = hn::Mul(w[i], e[i]);
+      det = hn::Add(det, we);
+      det_error = hn::Add(det_error, hn::Add(hn::Mul(hn::Abs(w[i]), error[i]), hn::Mul(bound, hn::Abs(we))));
+    }
+
+    // The sign of D: by its bound, else lane by lane. Edges of a triangle with D < 0 are negated, and so is det.
+    auto negative = hn::Lt(det, hn::Zero(dd));
+    const std::uint32_t uncertain = Bits(dd, hn::Not(hn::Gt(hn::Abs(det), det_error))) << lane;
+    if (HWY_UNLIKELY((uncertain & batch.live) != 0))
+      negative = ExactSigns(batch, lane, uncertain, negative, statistics);
+    batch.negative |= Bits(dd, negative) << lane;
+    const Double d_sign = hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0));
+    det = hn::Mul(det, d_sign);
+    const Double limit = hn::Set(dd, kEdgeLimit);
+    for (std::size_t i = 0; i < 3; ++i) {
+      a[i] = hn::Mul(a[i], d_sign);
+      b[i] = hn::Mul(b[i], d_sign);
+      e[i] = hn::Mul(e[i], d_sign);
       const Double s = Scale(a[i], b[i], kSmallExponent);
-      const Double limit = hn::Set(dd, kEdgeLimit);
       hn::Store(RoundToInt(hn::Mul(a[i], s)), di, batch.small_a[i] + lane);
       hn::Store(RoundToInt(hn::Mul(b[i], s)), di, batch.small_b[i] + lane);
       hn::Store(RoundToInt(hn::Max(hn::Min(hn::Mul(e[i], s), limit), hn::Neg(limit))), di, batch.small_e[i] + lane);
       hn::Store(a[i], dd, batch.a[i] + lane);
       hn::Store(b[i], dd, batch.b[i] + lane);
-      hn::Store(c, dd, batch.c[i] + lane);
+      hn::Store(hn::Mul(c[i], d_sign), dd, batch.c[i] + lane);
     }
     if (!depth) continue;
 
-    // The depth plane about the origin: z = sum Z_i E_i / D, with D = sum W_i E_i taken there, where little cancels.
-    Double z = hn::Zero(dd), zx = z, zy = z, det = z, z_error = z, zx_size = z, zy_size = z, det_error = z;
+    // The depth plane about the origin: z = sum Z_i E_i / D.
+    Double z = hn::Zero(dd), zx = z, zy = z, z_error = z, zx_size = z, zy_size = z;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Double depth_i = hn::PromoteTo(dd, v[i].z), ze = hn::Mul(depth_i, e[i]), we = hn::Mul(w[i], e[i]);
+      const Double depth_i = hn::PromoteTo(dd, v[i].z), ze = hn::Mul(depth_i, e[i]);
       const Double za = hn::Mul(depth_i, a[i]), zb = hn::Mul(depth_i, b[i]);
       z = hn::Add(z, ze);
       zx = hn::Add(zx, za);
       zy = hn::Add(zy, zb);
-      det = hn::Add(det, we);
       z_error = hn::Add(z_error, hn::Add(hn::Mul(hn::Abs(depth_i), error[i]), hn::Mul(bound, hn::Abs(ze))));
-      det_error = hn::Add(det_error, hn::Add(hn::Mul(hn::Abs(w[i]), error[i]), hn::Mul(bound, hn::Abs(we))));
       zx_size = hn::Add(zx_size, hn::Abs(za));
       zy_size = hn::Add(zy_size, hn::Abs(zb));
     }
@@ -349,6 +358,7 @@ HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_
       inside = hn::And(inside, hn::And(hn::Ge(corner.z, zero), hn::Le(corner.z, corner.w)));
     batch.clip |= Bits(df, hn::Not(inside)) << lane;
   }
+  CullAndCount(job, entries, count, batch, statistics);
   batch.small &= batch.live;
   if (draw.depth_mode == DepthMode::none) batch.clip = 0;
 }

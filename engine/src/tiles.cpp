@@ -99,9 +99,8 @@ class Renderer {
     worker_statistics_.reset(new (std::nothrow) Statistics[static_cast<std::size_t>(threads_)]());
     segments_.reset(new (std::nothrow) Segment[draws_.size() + 1]);
     ordinals_.reset(new (std::nothrow) std::uint32_t[draws_.size() + 1]);
-    bool ok = ranges_.allocate(chunk) && facing_.allocate(chunk) && bin_begin_.allocate(bins + 1) &&
-              bin_next_.allocate(bins + 1) && worker_statistics_ != nullptr && segments_ != nullptr &&
-              ordinals_ != nullptr;
+    bool ok = ranges_.allocate(chunk) && bin_begin_.allocate(bins + 1) && bin_next_.allocate(bins + 1) &&
+              worker_statistics_ != nullptr && segments_ != nullptr && ordinals_ != nullptr;
     const std::size_t workers = static_cast<std::size_t>(threads_);
     if (ok && visibility_) {
       ok = depth_.allocate(workers * kBinSamples) && winner_.allocate(workers * kBinSamples) &&
@@ -183,8 +182,8 @@ class Renderer {
       const std::size_t d = draw;
       parallel_for(threads_, slices, [&](std::size_t s, int worker) {
         const auto begin = static_cast<std::uint32_t>(s) * per_thread;
-        classify(draws_[d], position + begin, number + begin, std::min(per_thread, slice - begin),
-                 worker_statistics_[static_cast<std::size_t>(worker)]);
+        find_bins(draws_[d], position + begin, number + begin, std::min(per_thread, slice - begin),
+                  worker_statistics_[static_cast<std::size_t>(worker)]);
       });
       for (std::uint32_t i = number; i < number + slice; ++i) {
         const BinRange& r = ranges_[i];
@@ -198,15 +197,15 @@ class Renderer {
     segments_[segment_count_] = {draws_.size(), 0, number};
 
     std::fill(bin_begin_.data(), bin_begin_.data() + bins + 1, 0u);
-    for_each_entry(number, [&](std::size_t bin, std::uint32_t) { ++bin_begin_[bin + 1]; });
+    for_each_entry(number, [&](std::size_t bin, std::uint32_t, bool) { ++bin_begin_[bin + 1]; });
     for (std::size_t bin = 0; bin < bins; ++bin) bin_begin_[bin + 1] += bin_begin_[bin];
     if (entries > entry_capacity_) {
       entry_capacity_ = entries;
       if (!entries_.allocate(entries)) return false;
     }
     std::copy(bin_begin_.data(), bin_begin_.data() + bins, bin_next_.data());
-    for_each_entry(number, [&](std::size_t bin, std::uint32_t n) {
-      entries_[bin_next_[bin]++] = BinEntry::make(n, (facing_[n] & 1) != 0, (facing_[n] & 2) != 0);
+    for_each_entry(number, [&](std::size_t bin, std::uint32_t n, bool home) {
+      entries_[bin_next_[bin]++] = {n & 0x7FFFFFFFu, home};
     });
     return true;
   }
@@ -217,30 +216,30 @@ class Renderer {
       const BinRange r = ranges_[n];
       if (r.first_x > r.last_x) continue;
       for (std::size_t y = r.first_y; y <= r.last_y; ++y) {
-        for (std::size_t x = r.first_x; x <= r.last_x; ++x) visit(y * static_cast<std::size_t>(bins_x_) + x, n);
+        for (std::size_t x = r.first_x; x <= r.last_x; ++x)
+          visit(y * static_cast<std::size_t>(bins_x_) + x, n, x == r.first_x && y == r.first_y);
       }
     }
   }
 
-  void classify(const Draw& draw, std::uint32_t begin, std::uint32_t number, std::uint32_t count,
-                Statistics& statistics) {
+  void find_bins(const Draw& draw, std::uint32_t begin, std::uint32_t number, std::uint32_t count,
+                 Statistics& statistics) {
     const PixelBox limits = limits_of(draw);
     const bool check_attributes = !draw.attributes.empty();
     for (std::uint32_t i = 0; i < count; i += kBatch) {
-      Classified out[kBatch];
+      PixelBox boxes[kBatch];
       const std::uint32_t lanes = std::min(kBatch, count - i);
-      kernels_.classify(draw, check_attributes, begin + i, lanes, limits, out, statistics);
+      kernels_.find_boxes(draw, check_attributes, begin + i, lanes, limits, boxes, statistics);
       for (std::uint32_t lane = 0; lane < lanes; ++lane) {
-        const Classified& c = out[lane];
+        const PixelBox& box = boxes[lane];
         BinRange& range = ranges_[number + i + lane];
-        if (c.box.empty()) {
+        if (box.empty()) {
           range = {1, 1, 0, 0};
-          continue;
+        } else {
+          range = {static_cast<std::uint8_t>(box.x0 >> kBinLog2), static_cast<std::uint8_t>(box.y0 >> kBinLog2),
+                   static_cast<std::uint8_t>((box.x1 - 1) >> kBinLog2),
+                   static_cast<std::uint8_t>((box.y1 - 1) >> kBinLog2)};
         }
-        range = {static_cast<std::uint8_t>(c.box.x0 >> kBinLog2), static_cast<std::uint8_t>(c.box.y0 >> kBinLog2),
-                 static_cast<std::uint8_t>((c.box.x1 - 1) >> kBinLog2),
-                 static_cast<std::uint8_t>((c.box.y1 - 1) >> kBinLog2)};
-        facing_[number + i + lane] = static_cast<std::uint8_t>((c.negative ? 1 : 0) | (c.mixed ? 2 : 0));
       }
     }
   }
@@ -268,7 +267,7 @@ class Renderer {
     for (std::size_t s = 0; s < segment_count_ && entry != end; ++s) {
       const Segment& segment = segments_[s];
       const std::uint32_t next = segments_[s + 1].first_number;
-      const BinEntry* const stop = std::partition_point(entry, end, [next](BinEntry e) { return e.number() < next; });
+      const BinEntry* const stop = std::partition_point(entry, end, [next](BinEntry e) { return e.number < next; });
       const Draw& draw = draws_[segment.draw];
       const PixelBox limits = limits_of(draw);
       BinJob job;
@@ -397,7 +396,6 @@ class Renderer {
   std::unique_ptr<Segment[]> segments_;
   std::size_t segment_count_ = 0;
   Buffer<BinRange> ranges_;
-  Buffer<std::uint8_t> facing_;
   Buffer<std::uint32_t> bin_begin_, bin_next_;
   Buffer<BinEntry> entries_;
   std::size_t entry_capacity_ = 0;

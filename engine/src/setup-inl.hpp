@@ -46,8 +46,7 @@ HWY_INLINE std::uint32_t Bits(D d, M mask) {
   (void)d;
   return static_cast<std::uint32_t>(mask.raw);
 #elif HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
-  (void)d;
-  return static_cast<std::uint32_t>(hn::detail::BitsFromMask(mask));
+  return static_cast<std::uint32_t>(hn::detail::BitsFromMask(mask)) & ((1u << hn::Lanes(d)) - 1);
 #else
   std::uint8_t bytes[8] = {};
   hn::StoreMaskBits(d, mask, bytes);
@@ -153,6 +152,7 @@ void FindBoxes(const Draw& draw, bool check_attributes, std::uint32_t first, std
   statistics.triangles += count;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
     out[lane] = (mixed >> lane & 1) != 0 ? MixedBox(vertices, lane, limits) : boxes.Get(lane);
+    if (limits.empty()) out[lane] = {0, 0, 0, 0};
     if ((finite >> lane & 1) == 0 || (check_attributes && !AttributesFinite(draw, first + lane))) {
       ++statistics.dropped;
       out[lane] = {0, 0, 0, 0};

@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <ostream>
 
 #include "fuzz/mutate.hpp"
 #include "properties/generators.hpp"
@@ -31,6 +32,11 @@ struct Form {
   Scene (*decode)(std::span<const std::uint8_t>);
   std::optional<Bytes> (*encode)(const Scene&);
 };
+
+// For GoogleTest, which prints the bytes otherwise.
+[[maybe_unused]] void PrintTo(const Form& form, std::ostream* out) {
+  *out << form.name;
+}
 
 class Decode : public testing::TestWithParam<Form> {};
 INSTANTIATE_TEST_SUITE_P(Forms, Decode,

@@ -287,7 +287,7 @@ void add_contract_checks(const Settings& settings, std::vector<Check>& checks) {
         fmt::format("the same image in {} floating-point modes of the caller, which are restored", std::size(kModes)));
     const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 2000, 20000, 400000);
     check.prepare = [cases] { return cases; };
-    check.cost = 1.5e-4;
+    check.cost = 2.6e-4;
     check.run = [&settings](std::uint64_t number) {
       return float_environment(random_case(settings, "float-environment", number), settings.engine);
     };

@@ -124,11 +124,11 @@ class Arguments {
     return kValues[in_.below(8)];
   }
 
-  // An enumerator; one time in 32 any byte at all.
+  // An enumerator; one time in 32 the number after the last, or any byte at all.
   template <typename Enum>
   Enum enumerator(Enum last, Status status) {
     const auto count = static_cast<std::uint32_t>(last) + 1;
-    const std::uint32_t value = one_in(32) ? in_.byte() : in_.below(count);
+    const std::uint32_t value = !one_in(32) ? in_.below(count) : one_in(2) ? in_.byte() : count;
     note(value >= count, status);
     return static_cast<Enum>(value);
   }

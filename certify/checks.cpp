@@ -82,9 +82,9 @@ void add_random_checks(const Settings& settings, std::vector<Check>& checks) {
     Check check = make_check(std::string("random-") + category.name, "C, F, I, V",
                              std::string("engine = oracle, all outputs: ") + category.aims);
     check.unit = "scenes";
-    const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 400, 4000, 100000);
+    const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 1000, 15000, 500000);
     check.prepare = [cases] { return cases; };
-    check.cost = 4e-4;
+    check.cost = 3e-4;
     check.run = [&settings, &category, name = check.name](std::uint64_t number) {
       properties::SceneLimits limits;
       limits.samples = settings.support.samples;
@@ -102,9 +102,9 @@ void add_random_checks(const Settings& settings, std::vector<Check>& checks) {
       "random-second-oracle", "all rules",
       "oracle = second oracle, over all categories and modes (samples, grid, conservative, depth, fill rules)");
   check.unit = "scenes";
-  const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 1500, 20000, 400000);
+  const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 3000, 60000, 2000000);
   check.prepare = [cases] { return cases; };
-  check.cost = 1e-3;
+  check.cost = 1.8e-3;
   check.run = [&settings, name = check.name](std::uint64_t number) {
     properties::SceneLimits limits;
     limits.samples = limits.grid = limits.conservative = true;
@@ -121,8 +121,8 @@ void add_random_checks(const Settings& settings, std::vector<Check>& checks) {
 void add_property_checks(const Settings& settings, std::vector<Check>& checks) {
   for (const properties::Property& property : properties::all_properties()) {
     Check check = make_check(property.name, property.rule, property.claim);
-    check.cost = 5e-4;
-    const std::uint64_t sampled = by_level<std::uint64_t>(settings.level, 300, 4000, 100000);
+    check.cost = 2e-4;
+    const std::uint64_t sampled = by_level<std::uint64_t>(settings.level, 800, 12000, 400000);
     // Small worlds are walked through whole where the level has the time.
     const std::uint64_t affordable = by_level<std::uint64_t>(settings.level, 20000, 2000000, ~std::uint64_t{0});
     check.exhaustive = property.exhaustive > 0 && property.exhaustive <= affordable;

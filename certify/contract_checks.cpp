@@ -256,7 +256,7 @@ void add_contract_checks(const Settings& settings, std::vector<Check>& checks) {
   {
     Check check =
         make_check("viewport", "S3", "to_pixel = the oracle's, bit for bit, on hard viewports and clip coordinates");
-    const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 5000, 50000, 2000000);
+    const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 10000, 100000, 4000000);
     check.prepare = [cases] { return cases; };
     check.cost = 1e-4;
     check.run = [&settings](std::uint64_t number) {
@@ -270,7 +270,7 @@ void add_contract_checks(const Settings& settings, std::vector<Check>& checks) {
   }
   {
     Check check = make_check("outputs-alone", "M2, V1, I", "each output asked for alone equals the same among all");
-    const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 1000, 10000, 200000);
+    const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 2000, 20000, 400000);
     check.prepare = [cases] { return cases; };
     check.cost = 1e-4;
     check.run = [&settings](std::uint64_t number) {
@@ -285,9 +285,9 @@ void add_contract_checks(const Settings& settings, std::vector<Check>& checks) {
     Check check = make_check(
         "float-environment", "B4",
         fmt::format("the same image in {} floating-point modes of the caller, which are restored", std::size(kModes)));
-    const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 1000, 10000, 200000);
+    const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 2000, 20000, 400000);
     check.prepare = [cases] { return cases; };
-    check.cost = 1.5e-4;
+    check.cost = 2.6e-4;
     check.run = [&settings](std::uint64_t number) {
       return float_environment(random_case(settings, "float-environment", number), settings.engine);
     };

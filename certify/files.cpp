@@ -46,6 +46,13 @@ int write_all(int descriptor, std::string_view bytes) {
 
 }  // namespace
 
+void check_folder(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) fail(path, ENOENT);
+  if (!fs::is_directory(path, error)) fail(path, ENOTDIR);
+  if (::access(path.c_str(), W_OK | X_OK) != 0) fail(path, errno);
+}
+
 void check_writable(const std::string& path) {
   if (path.empty()) throw FileError("an output file needs a name");
   std::error_code error;

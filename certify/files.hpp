@@ -20,6 +20,9 @@ class FileError : public std::runtime_error {
 // be called before the work whose result goes there.
 void check_writable(const std::string& path);
 
+// The same for a folder that files are going to be made in.
+void check_folder(const std::string& path);
+
 // Writes through a temporary file in the same folder and a rename. Throws FileError; then nothing is left behind. What
 // is no regular file (a pipe, a terminal, /dev/stdout) is written to as it is.
 void write_file(const std::string& path, std::string_view bytes);

@@ -235,7 +235,7 @@ int run_certify(const CertifyOptions& options) {
   settings.corpus = options.corpus.empty() ? find_corpus() : options.corpus;
   settings.support = probe_support(settings.engine);
   if (!options.json.empty()) check_writable(options.json);
-  check_writable(options.output_directory + "/.");
+  check_folder(options.output_directory);
   std::vector<Check> checks = selected(list_checks(settings), options.only);
 
   catch_interrupts();
@@ -306,7 +306,7 @@ std::string one_line(std::string text) {
 int run(int argc, char** argv) {
   CLI::App app("An exact triangle rasterizer, and the suite that proves it.", "surefill");
   app.set_version_flag("--version", version_line());
-  app.require_subcommand(1);
+  app.require_subcommand(0, 1);
   app.get_formatter()->column_width(34);
 
   RenderOptions render_options;
@@ -359,6 +359,9 @@ int run(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);
     throw UsageError(one_line(error.what()) + " (--help shows the usage)");
+  }
+  if (app.get_subcommands().empty()) {
+    throw UsageError("a subcommand is needed: render, certify, replay or reduce (--help shows the usage)");
   }
   if (render_command->parsed()) return run_render(render_options);
   if (certify_command->parsed()) return run_certify(certify_options);

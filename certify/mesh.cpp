@@ -326,7 +326,7 @@ Camera framing_camera(const Mesh& mesh, int width, int height) {
   Camera camera;
   const double half = camera.field_of_view * std::numbers::pi / 360;
   const double narrow = std::min(half, std::atan(std::tan(half) * aspect));
-  const Double3 side = {0.55, 0.35, 0.75};
+  const Double3 side = {-0.55, 0.35, -0.75};
   const double distance = radius / std::sin(narrow) * 0.9;  // few meshes fill their sphere
   camera.target = box.centre();
   const Double3 offset = scaled(side, distance / length(side));

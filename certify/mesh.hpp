@@ -59,7 +59,8 @@ struct Box {
 };
 Box bounds(const Mesh& mesh);
 
-// A camera that sees the whole mesh from the front right, a little from above; near and far hold the mesh between them.
+// A camera that sees the whole mesh, from (-x, +y, -z), so a little from above; near and far hold the mesh between
+// them.
 Camera framing_camera(const Mesh& mesh, int width, int height);
 
 // near and far that hold the mesh between them as seen by this eye; near is far / 10,000 at least, also from inside.

@@ -143,7 +143,7 @@ void add_mesh_checks(const Settings& settings, std::vector<Check>& checks) {
     check.unit = "bands of rows";
     check.exhaustive = true;
     check.prepare = [mesh] { return mesh->prepare(); };
-    check.cost = by_level(settings.level, 0.03, 1.0, 1.0);
+    check.cost = by_level(settings.level, 0.015, 0.3, 0.3);
     check.run = [mesh](std::uint64_t number) { return mesh->run(number); };
     check.still_fails = [&settings](const Scene& scene) {
       return valid(scene) && judge(scene, properties::oracle_renderer(), settings.engine, 0).differences > 0;

@@ -16,7 +16,7 @@
 namespace surefill::corpus {
 namespace {
 
-constexpr std::size_t kMaxLineLength = 4096;  // characters, comments too
+constexpr std::size_t kMaxLineLength = 4096;  // characters, but for a comment
 constexpr std::size_t kAnyCount = std::numeric_limits<std::size_t>::max();
 
 bool is_digit(char c) {
@@ -80,7 +80,8 @@ class Reader {
     rest_.remove_prefix(size == rest_.npos ? rest_.size() : size + 1);
     if (size == rest_.npos) fail("the last line has no line break: the file is cut short");
     if (line.ends_with('\r')) line.remove_suffix(1);
-    if (line.size() > kMaxLineLength) fail("line longer than " + std::to_string(kMaxLineLength) + " characters");
+    if (std::min(line.find('#'), line.size()) > kMaxLineLength)
+      fail("line longer than " + std::to_string(kMaxLineLength) + " characters");
     const auto is_control = [](unsigned char c) { return (c < ' ' && c != '\t') || c == 0x7f; };
     if (std::any_of(line.begin(), line.end(), is_control)) fail("control character: this is not a text file");
     return true;

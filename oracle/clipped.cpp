@@ -68,37 +68,47 @@ class Plane {
     const Vector v = m[2] - m[0];
     normal_ = cross(u, v);
     offset_ = dot(normal_, origin_);
-    // The dual basis of (u, v) within the plane: dot(s_axis, u) = dot(r_axis, v) = 1, the other products 0.
-    const Rational square = dot(normal_, normal_);
+    square_ = dot(normal_, normal_);
     s_axis_ = cross(v, normal_);
     r_axis_ = cross(normal_, u);
-    for (Rational* x : {&s_axis_.x, &s_axis_.y, &s_axis_.w, &r_axis_.x, &r_axis_.y, &r_axis_.w}) *x /= square;
+    depth_scale_ = offset_ * square_;
   }
 
+  // l_i = weights[i] / sum. Kept apart, for sums and products of dyadic numbers are cheap, and of other rationals not.
   struct Hit {
-    Rational t;
     Weights weights;
+    Rational sum;
   };
   // Where the plane is in front of the eye (t > 0); M1's "sum E_i has the sign of D".
   std::optional<Hit> hit(const Vector& p) const {
     const Rational slope = dot(normal_, p);
     if (sgn(slope) * sgn(offset_) <= 0) return std::nullopt;
-    const Rational t = offset_ / slope;
-    const Vector d = Vector{t * p.x, t * p.y, t * p.w} - origin_;
+    // t = offset / slope, and slope (t p - m0) is:
+    const Vector d{offset_ * p.x - slope * origin_.x, offset_ * p.y - slope * origin_.y,
+                   offset_ * p.w - slope * origin_.w};
+    // The axes over `square` are the dual basis of (u, v) in the plane: their products with u, v are 1 and 0.
     const Rational s = dot(s_axis_, d);
     const Rational r = dot(r_axis_, d);
-    return Hit{t, {1 - s - r, s, r}};
+    const Rational sum = slope * square_;
+    return Hit{{sum - s - r, s, r}, sum};
   }
 
+  Weights perspective(const Hit& hit) const {
+    return {hit.weights[0] / hit.sum, hit.weights[1] / hit.sum, hit.weights[2] / hit.sum};
+  }
   Weights noperspective(const Hit& hit) const {
     Weights result;
-    for (std::size_t i = 0; i < 3; ++i) result[i] = hit.weights[i] * w_[i] / hit.t;
+    for (std::size_t i = 0; i < 3; ++i) result[i] = hit.weights[i] * w_[i] / depth_scale_;
     return result;
+  }
+  // (sum l_i Z_i) / t, where sum l_i Z_i is the sum of weights[i] Z_i over slope square.
+  Rational depth(const Hit& hit, const std::array<Rational, 3>& z) const {
+    return combine(hit.weights, z) / depth_scale_;
   }
 
  private:
   Vector origin_, normal_, s_axis_, r_axis_;
-  Rational offset_;
+  Rational offset_, square_, depth_scale_;
   std::array<Rational, 3> w_;
 };
 
@@ -343,7 +353,7 @@ DrawRun::LineCrossings DrawRun::line_crossings(const Triangle& triangle, int lin
 Rational DrawRun::real_depth(const Triangle& triangle, const Vector& p) const {
   if (triangle.plane) {
     const auto hit = triangle.plane->hit(p).value();  // a covered sample sees the plane
-    return combine(hit.weights, triangle.z) / hit.t;
+    return triangle.plane->depth(hit, triangle.z);
   }
   if (!triangle.basis->regular()) return triangle.low;
   return std::clamp(combine(triangle.basis->coordinates(p), triangle.z), triangle.low, triangle.high);
@@ -370,7 +380,7 @@ std::optional<PlaceWeights> DrawRun::weights_at(const Triangle& triangle, const 
   if (triangle.plane) {
     const auto hit = triangle.plane->hit(p);
     if (!hit) return std::nullopt;
-    return PlaceWeights{hit->weights, triangle.plane->noperspective(*hit)};
+    return PlaceWeights{triangle.plane->perspective(*hit), triangle.plane->noperspective(*hit)};
   }
   if (!triangle.basis->regular()) return std::nullopt;
   const Weights coordinates = triangle.basis->coordinates(p);

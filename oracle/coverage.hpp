@@ -53,7 +53,7 @@ class Cone {
                      Point p) const;  // at p moved by C3's step; 0 only if D = 0 or E_edge vanishes everywhere
   bool covers(Point p) const;         // C1, C2, C3
 
-  // M4, for the closed square of a pixel. D = 0 gives false.
+  // M4, for the closed square of a pixel. D = 0 gives false. Precondition: the positions are float32 values (no grid).
   bool square_meets(const Rect& square) const;
   bool square_within(const Rect& square) const;
 

@@ -31,10 +31,10 @@ inline constexpr corpus::Outputs kCountOnly{true, false, false, false, false};
 
 // How the image of a changed scene shows the original one. What is left out is as in the original.
 struct Correspondence {
-  std::function<std::array<int, 2>(int x, int y)> pixel;           // of `actual`, for pixel (x, y) of `expected`
-  std::array<std::size_t, 3> barycentrics{0, 1, 2};                // weight i of `expected` is this one of `actual`
-  std::function<bool(const corpus::SceneAttribute&)> attribute;    // false: not compared
-  std::function<bool(int x, int y)> where;                         // false: this pixel of `expected` is not compared
+  std::function<std::array<int, 2>(int x, int y)> pixel;         // of `actual`, for pixel (x, y) of `expected`
+  std::array<std::size_t, 3> barycentrics{0, 1, 2};              // weight i of `expected` is this one of `actual`
+  std::function<bool(const corpus::SceneAttribute&)> attribute;  // false: not compared
+  std::function<bool(int x, int y)> where;                       // false: this pixel of `expected` is not compared
 };
 
 // Collects the verdict on one case.
@@ -42,7 +42,8 @@ class Check {
  public:
   explicit Check(const Renderer& renderer) : renderer_(renderer) {}
 
-  // The renderer's image of the scene. When it returns another status than ok, that is a difference and there is no image.
+  // The renderer's image of the scene. When it returns another status than ok, that is a difference and there is no
+  // image.
   std::optional<corpus::Image> draw(const corpus::Scene& scene, const corpus::Outputs& outputs);
 
   void looked_at(std::uint64_t samples) { verdict_.samples += samples; }

@@ -474,6 +474,25 @@ TEST(ClippedOracle, GridOutsideG2) {
   EXPECT_EQ(shot.barycentrics[4], nearest_float(e1 / (e1 + e2)));
 }
 
+// m0 = (15, 45, 10)/8, m1 = (-1, -3, -1), m2 = (0, 7/2, 7/4): D = 35/16, and at the centre (1.5, 3.5) E_0 = 0, E_1 =
+// -105/32, E_2 = -5/8, so that all count as 0. The snapped polygon has there the side (0, 2)-(2, 4), with the inside at
+// larger y: where the shift goes inside, the centre is covered and serves "as centroid", with the values of vertex 0.
+TEST(ClippedOracle, GridCentreWithoutWeightsM1G2) {
+  const Mesh mesh({{1.875f, 5.625f, 0, 1.25f}, {-1, -3, 0, -1}, {0, 3.5f, 0, 1.75f}});
+  Draw draw = mesh.draw();
+  draw.grid = Grid{0, 0, 0, GridRounding::nearest_even};
+  draw.fill_rule = FillRule::southwards;
+  const std::size_t sample = (3 * 2 + 1) * 4 + 2;  // of pixel (1, 3)
+  for (const AttributeLocation location : {AttributeLocation::centre, AttributeLocation::centroid}) {
+    Shot shot(2, 5, 4);
+    shot.location = location;
+    shot.render({&draw, 1});
+    EXPECT_EQ(shot.count[sample], 1u);
+    EXPECT_EQ(shot.barycentrics[3 * sample], 1.0f);
+    EXPECT_EQ(shot.barycentrics[3 * sample + 2], 0.0f);
+  }
+}
+
 TEST(ClippedOracle, ThreadsDoNotMatter) {
   const Mesh mesh({{1, 1, 0, 2}, {70, -3, 2, 2}, {-1.5f, -30, 1, -1}, flat(3, 30, 1), flat(0, 0), flat(32, 9)},
                   {1, 2, 3, 4, 5, 6});

@@ -16,7 +16,9 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-double dot(const Vector& a, const Vector& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Vector& a, const Vector& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 Vector cross(const Vector& a, const Vector& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
@@ -40,7 +42,8 @@ int winding_number(const corpus::SceneDraw& draw) {
   return static_cast<int>(std::lround(sum / (4 * std::numbers::pi)));
 }
 
-// Where D = 0, the eye lies in the triangle's plane; it lies outside of the triangle if all angles at the eye are acute.
+// Where D = 0, the eye lies in the triangle's plane; it lies outside of the triangle if all angles at the eye are
+// acute.
 bool eye_may_lie_in_a_triangle(const corpus::SceneDraw& draw) {
   return std::any_of(draw.triangles.begin(), draw.triangles.end(), [&](const corpus::SceneTriangle& triangle) {
     const std::array<Vertex, 3> t = triangle_of(draw, triangle);
@@ -87,16 +90,19 @@ corpus::Scene make_hull(std::uint64_t seed) {
     draw.fill_rule = static_cast<FillRule>(r.below(8));
     // On the hull itself the eye sees faces of one facing only, some of them edge-on.
     std::array<int, 3> facings{};
-    for (const corpus::SceneTriangle& t : draw.triangles) ++facings[static_cast<std::size_t>(facing(triangle_of(draw, t)) + 1)];
+    for (const corpus::SceneTriangle& t : draw.triangles)
+      ++facings[static_cast<std::size_t>(facing(triangle_of(draw, t)) + 1)];
     const bool on_hull = facings[1] != 0 && (facings[0] == 0 || facings[2] == 0);
     if (!mesh.triangles.empty() && !on_hull) return scene;
   }
 }
 
-// A closed surface of any shape that crosses itself: the connections of an octahedron or of a tetrahedron, vertices anywhere.
+// A closed surface of any shape that crosses itself: the connections of an octahedron or of a tetrahedron, vertices
+// anywhere.
 corpus::Scene make_tangle(std::uint64_t seed) {
   Random r(seed ^ 0x7A46);
-  constexpr Indices kOctahedron[] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4}, {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
+  constexpr Indices kOctahedron[] = {{0, 2, 4}, {2, 1, 4}, {1, 3, 4}, {3, 0, 4},
+                                     {2, 0, 5}, {1, 2, 5}, {3, 1, 5}, {0, 3, 5}};
   constexpr Indices kTetrahedron[] = {{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}};
   for (;;) {
     const int width = r.between(1, 16), height = r.between(1, 16);
@@ -104,16 +110,18 @@ corpus::Scene make_tangle(std::uint64_t seed) {
     while (points.size() < 6) points = points_in_space(r, width, height);
     Mesh mesh;
     for (const auto& p : points) mesh.vertices.push_back({p[0], p[1], 0, p[2]});
-    if (r.one_in(2)) mesh.triangles.assign(std::begin(kOctahedron), std::end(kOctahedron));
-    else mesh.triangles.assign(std::begin(kTetrahedron), std::end(kTetrahedron));
+    if (r.one_in(2))
+      mesh.triangles.assign(std::begin(kOctahedron), std::end(kOctahedron));
+    else
+      mesh.triangles.assign(std::begin(kTetrahedron), std::end(kTetrahedron));
     corpus::Scene scene = mesh_scene(mesh, width, height);
     scene.draws[0].fill_rule = static_cast<FillRule>(r.below(8));
     if (!eye_may_lie_in_a_triangle(scene.draws[0])) return scene;
   }
 }
 
-// Spot, seen from inside or outside: a camera at `eye` in a random frame, each vertex rounded once to float32, so that the
-// mesh stays closed.
+// Spot, seen from inside or outside: a camera at `eye` in a random frame, each vertex rounded once to float32, so that
+// the mesh stays closed.
 corpus::Scene make_spot(std::uint64_t seed) {
   static const Mesh spot = load_mesh("spot.obj");
   Random r(seed ^ 0x5907);
@@ -136,8 +144,8 @@ corpus::Scene make_spot(std::uint64_t seed) {
     for (Vertex& v : mesh.vertices) {
       const Vector seen = {v.x - eye[0], v.y - eye[1], v.z - eye[2]};
       const double w = dot(seen, forward);
-      v = {static_cast<float>(width * (dot(seen, right) + w / 2)), static_cast<float>(height * (dot(seen, down) + w / 2)),
-           0, static_cast<float>(w)};
+      v = {static_cast<float>(width * (dot(seen, right) + w / 2)),
+           static_cast<float>(height * (dot(seen, down) + w / 2)), 0, static_cast<float>(w)};
     }
     scale_vertices(mesh, r);
     corpus::Scene scene = mesh_scene(mesh, width, height);
@@ -169,12 +177,14 @@ constexpr Property kProperties[] = {
      make_hull, decide},
     {"degree-tangle", "T2", "over closed meshes that cross themselves, front minus back is the winding number", false,
      false, 0, make_tangle, decide},
-    {"degree-spot", "T2", "over spot.obj, from inside and outside, front minus back is the winding number", false, false,
-     0, make_spot, decide},
+    {"degree-spot", "T2", "over spot.obj, from inside and outside, front minus back is the winding number", false,
+     false, 0, make_spot, decide},
 };
 
 }  // namespace
 
-std::span<const Property> degree_properties() { return kProperties; }
+std::span<const Property> degree_properties() {
+  return kProperties;
+}
 
 }  // namespace surefill::properties

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The image equals the exact one, output by output and as a whole.
+#include <algorithm>
+
 #include "properties/check.hpp"
 
 namespace surefill::properties {
@@ -22,6 +24,19 @@ corpus::Scene make_depth(std::uint64_t n) {
   constexpr DepthMode kModes[] = {DepthMode::none, DepthMode::clip, DepthMode::clamp};
   corpus::Scene scene = random_case(n, kPlain);
   for (corpus::SceneDraw& draw : scene.draws) draw.depth_mode = kModes[(n / categories().size()) % 3];
+  return scene;
+}
+
+// Long and narrow, up to the largest target, where sample positions need all their bits.
+corpus::Scene make_wide(std::uint64_t n) {
+  Random random(n);
+  const Category& category = category_of_case(n);
+  const int exponent = random.between(4, 14);
+  const int length = std::min(kMaxTargetSize, (1 << exponent) + static_cast<int>(random.below(1u << exponent)));
+  const int breadth = random.between(1, std::max(1, 4096 / length));
+  corpus::Scene scene = random.one_in(2) ? triangle_scene(length, breadth, category.triangle(random, length, breadth))
+                                         : triangle_scene(breadth, length, category.triangle(random, breadth, length));
+  scene.draws[0].fill_rule = static_cast<FillRule>(random.below(8));
   return scene;
 }
 
@@ -59,6 +74,8 @@ Verdict decide_all(const corpus::Scene& scene, const Renderer& renderer) {
 constexpr Property kProperties[] = {
     {"equality-coverage", "C1-C4", "every coverage count is the oracle's, under every fill rule", true, true, 0,
      make_coverage, decide_coverage},
+    {"equality-wide", "S5, C1-C4", "on targets up to 16384 pixels wide or high, counts and depths are the oracle's",
+     true, true, 0, make_wide, decide_depth},
     {"equality-depth", "I1, I4, I5, V1", "counts, indices and depths are the oracle's, bit for bit", true, true, 0,
      make_depth, decide_depth},
     {"equality-attributes", "I2-I4", "barycentrics and attributes are the oracle's, bit for bit", true, true, 0,
@@ -69,6 +86,8 @@ constexpr Property kProperties[] = {
 
 }  // namespace
 
-std::span<const Property> equality_properties() { return kProperties; }
+std::span<const Property> equality_properties() {
+  return kProperties;
+}
 
 }  // namespace surefill::properties

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// One image in several ways: cropped, split into draws, moved, mirrored. Every changed float32 is exact, or the triangle is
-// left out on both sides.
+// One image in several ways: cropped, split into draws, moved, mirrored. Every changed float32 is exact, or the
+// triangle is left out on both sides.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -64,7 +64,8 @@ std::optional<float> moved(float value, int factor, float w) {
 Verdict decide_scissor(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   corpus::Scene whole = scene, cut = scene, empty = scene;
-  const Scissor scissor{scene.width / 3, scene.height / 4, std::max(1, 2 * scene.width / 3), scene.height - scene.height / 4};
+  const Scissor scissor{scene.width / 3, scene.height / 4, std::max(1, 2 * scene.width / 3),
+                        scene.height - scene.height / 4};
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     whole.draws[d].scissor.reset();
     cut.draws[d].scissor = scissor;
@@ -90,7 +91,8 @@ Verdict decide_facing(const corpus::Scene& scene, const Renderer& renderer) {
     front.draws[d].cull = Cull::back;
     back.draws[d].cull = Cull::front;
   }
-  const auto all = check.draw(both, kCountOnly), fronts = check.draw(front, kCountOnly), backs = check.draw(back, kCountOnly);
+  const auto all = check.draw(both, kCountOnly), fronts = check.draw(front, kCountOnly),
+             backs = check.draw(back, kCountOnly);
   if (!all || !fronts || !backs) return check.verdict();
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
@@ -155,8 +157,9 @@ Verdict decide_translation(const corpus::Scene& scene, const Renderer& renderer)
     });
     scenes.second.width += dx + 2;
     scenes.second.height += dy + 1;
-    compare_changed(check, "moved by whole pixels on a larger target", scenes,
-                    [&](int x, int y) { return std::array<int, 2>{x + dx, y + dy}; });
+    compare_changed(check, "moved by whole pixels on a larger target", scenes, [&](int x, int y) {
+      return std::array<int, 2>{x + dx, y + dy};
+    });
   }
   return check.verdict();
 }
@@ -185,15 +188,16 @@ Verdict decide_mirror(const corpus::Scene& scene, const Renderer& renderer) {
 // C3: x and y exchanged, in vertices and in the rule. Always exact.
 Verdict decide_transpose(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
-  constexpr FillRule kTransposed[] = {FillRule::southwards,      FillRule::northwards, FillRule::southwards_west,
-                                      FillRule::northwards_west, FillRule::top_left,   FillRule::bottom_left,
+  constexpr FillRule kTransposed[] = {FillRule::southwards,      FillRule::northwards,  FillRule::southwards_west,
+                                      FillRule::northwards_west, FillRule::top_left,    FillRule::bottom_left,
                                       FillRule::top_right,       FillRule::bottom_right};
   auto scenes = changed_exactly(without_places(scene), [](const Vertex& v) {
     return std::optional<Vertex>({v.y, v.x, v.z, v.w});
   });
   std::swap(scenes.second.width, scenes.second.height);
   flip_facing(scenes.second);
-  for (corpus::SceneDraw& draw : scenes.second.draws) draw.fill_rule = kTransposed[static_cast<std::size_t>(draw.fill_rule)];
+  for (corpus::SceneDraw& draw : scenes.second.draws)
+    draw.fill_rule = kTransposed[static_cast<std::size_t>(draw.fill_rule)];
   compare_changed(check, "with x and y exchanged", scenes, [](int x, int y) { return std::array<int, 2>{y, x}; });
   return check.verdict();
 }
@@ -238,11 +242,14 @@ constexpr Property kProperties[] = {
      decide_mirror},
     {"transpose", "C3", "with x and y exchanged, in the rule, too, the image is transposed", false, true, 0, make_frame,
      decide_transpose},
-    {"culling-box", "M6", "a culling box around the draw changes nothing", false, true, 0, make_frame, decide_culling_box},
+    {"culling-box", "M6", "a culling box around the draw changes nothing", false, true, 0, make_frame,
+     decide_culling_box},
 };
 
 }  // namespace
 
-std::span<const Property> frame_properties() { return kProperties; }
+std::span<const Property> frame_properties() {
+  return kProperties;
+}
 
 }  // namespace surefill::properties

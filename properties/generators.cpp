@@ -20,13 +20,17 @@ std::uint64_t Random::bits() {
   return z ^ (z >> 31);
 }
 
-std::uint32_t Random::below(std::uint32_t n) { return static_cast<std::uint32_t>(((bits() >> 32) * n) >> 32); }
+std::uint32_t Random::below(std::uint32_t n) {
+  return static_cast<std::uint32_t>(((bits() >> 32) * n) >> 32);
+}
 
 int Random::between(int first, int last) {
   return static_cast<int>(first + static_cast<std::int64_t>(below(static_cast<std::uint32_t>(last - first) + 1u)));
 }
 
-double Random::unit() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+double Random::unit() {
+  return static_cast<double>(bits() >> 11) * 0x1p-53;
+}
 
 namespace {
 
@@ -36,9 +40,15 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 // Numbers.
 
-double in(Random& r, double low, double high) { return low + (high - low) * r.unit(); }
-float sign(Random& r) { return r.one_in(2) ? -1.0f : 1.0f; }
-float power_of_two(Random& r, int low, int high) { return std::ldexp(1.0f, r.between(low, high)); }
+double in(Random& r, double low, double high) {
+  return low + (high - low) * r.unit();
+}
+float sign(Random& r) {
+  return r.one_in(2) ? -1.0f : 1.0f;
+}
+float power_of_two(Random& r, int low, int high) {
+  return std::ldexp(1.0f, r.between(low, high));
+}
 
 // Any finite float32, all exponents alike.
 float any_finite(Random& r) {
@@ -52,6 +62,9 @@ float nudged(Random& r, float value) {
   return std::isfinite(value) ? value : kMax;
 }
 
+// The order in which function arguments and operands are evaluated is the compiler's choice: an expression draws one
+// random number, or draws them in braces (left to right), so that a case is the same everywhere.
+
 // Points and vertices. A coordinate of a lattice of 1/q pixel, on the target or up to `margin` pixels off it.
 float lattice(Random& r, int size, int q, int margin = 3) {
   return static_cast<float>(r.between(-margin * q, (size + margin) * q)) / static_cast<float>(q);
@@ -61,19 +74,28 @@ struct Point {
   float x, y;
 };
 
-Point lattice_point(Random& r, int width, int height, int q) { return {lattice(r, width, q), lattice(r, height, q)}; }
+Point lattice_point(Random& r, int width, int height, int q) {
+  return {lattice(r, width, q), lattice(r, height, q)};
+}
 
 Point sample(Random& r, int width, int height) {
   return {static_cast<float>(r.between(0, width - 1)) + 0.5f, static_cast<float>(r.between(0, height - 1)) + 0.5f};
 }
 
-// The vertex that projects to (x, y), up to the rounding of X and Y.
-Vertex at(double x, double y, double w = 1) {
-  return {static_cast<float>(x * w), static_cast<float>(y * w), 0, static_cast<float>(w)};
+// The vertex that projects to the point, up to the rounding of X and Y.
+struct RealPoint {
+  double x, y;
+};
+Vertex at(RealPoint p, double w = 1) {
+  return {static_cast<float>(p.x * w), static_cast<float>(p.y * w), 0, static_cast<float>(w)};
 }
-Vertex at(Point p, float w = 1) { return {p.x * w, p.y * w, 0, w}; }
+Vertex at(Point p, float w = 1) {
+  return {p.x * w, p.y * w, 0, w};
+}
 
-Vertex scaled(const Vertex& v, float s) { return {v.x * s, v.y * s, v.z * s, v.w * s}; }
+Vertex scaled(const Vertex& v, float s) {
+  return {v.x * s, v.y * s, v.z * s, v.w * s};
+}
 
 // Any order and, sometimes, each vertex scaled by its own power of two: exact, and the same triangle (T4).
 Triangle shuffled(Random& r, Triangle t) {
@@ -92,15 +114,33 @@ Triangle with_depths(Random& r, Triangle t) {
     const double w = v.w;
     double z = 0;
     switch (kind) {
-      case 0: z = 0; break;
-      case 1: z = w / 2; break;                             // constant, and the same for many triangles
-      case 2: z = w * (r.one_in(2) ? 1 : 0); break;          // on the clip boundaries
-      case 3: z = w * r.unit(); break;
-      case 4: z = w * in(r, -0.5, 1.5); break;               // through both clip boundaries
-      case 5: z = w * r.between(-2, 10) / 8; break;
-      case 6: z = w * shared; break;                         // nearly constant: rounding of Z alone
-      case 7: z = in(r, -2, 2); break;
-      default: z = any_finite(r); break;
+      case 0:
+        z = 0;
+        break;
+      case 1:
+        z = w / 2;
+        break;  // constant, and the same for many triangles
+      case 2:
+        z = w * (r.one_in(2) ? 1 : 0);
+        break;  // on the clip boundaries
+      case 3:
+        z = w * r.unit();
+        break;
+      case 4:
+        z = w * in(r, -0.5, 1.5);
+        break;  // through both clip boundaries
+      case 5:
+        z = w * r.between(-2, 10) / 8;
+        break;
+      case 6:
+        z = w * shared;
+        break;  // nearly constant: rounding of Z alone
+      case 7:
+        z = in(r, -2, 2);
+        break;
+      default:
+        z = any_finite(r);
+        break;
     }
     if (!(std::abs(z) <= static_cast<double>(kMax))) z = 0;
     v.z = static_cast<float>(z);
@@ -108,7 +148,9 @@ Triangle with_depths(Random& r, Triangle t) {
   return t;
 }
 
-Triangle finished(Random& r, const Triangle& t) { return with_depths(r, shuffled(r, t)); }
+Triangle finished(Random& r, const Triangle& t) {
+  return with_depths(r, shuffled(r, t));
+}
 
 Triangle on_lattice(Random& r, int width, int height, int q) {
   Triangle t;
@@ -118,7 +160,7 @@ Triangle on_lattice(Random& r, int width, int height, int q) {
 
 Triangle ordinary_points(Random& r, int width, int height) {
   Triangle t;
-  for (Vertex& v : t) v = at(in(r, -3, width + 3), in(r, -3, height + 3));
+  for (Vertex& v : t) v = at(RealPoint{in(r, -3, width + 3), in(r, -3, height + 3)});
   return t;
 }
 
@@ -126,8 +168,8 @@ Triangle ordinary_points(Random& r, int width, int height) {
 // vertex anywhere. An end lies on a sample where a factor is whole.
 Triangle edge_through(Random& r, int width, int height, int dx, int dy) {
   const Point s = sample(r, width, height);
-  const float back = static_cast<float>(r.between(0, 16)) / (r.one_in(2) ? 1.0f : 4.0f);
-  const float ahead = static_cast<float>(r.between(1, 16)) / (r.one_in(2) ? 1.0f : 4.0f);
+  const float unit = r.one_in(2) ? 1.0f : 0.25f;
+  const float back = static_cast<float>(r.between(0, 16)) * unit, ahead = static_cast<float>(r.between(1, 16)) * unit;
   const auto fx = static_cast<float>(dx), fy = static_cast<float>(dy);
   return {at(Point{s.x - back * fx, s.y - back * fy}), at(Point{s.x + ahead * fx, s.y + ahead * fy}),
           at(lattice_point(r, width, height, 4))};
@@ -150,13 +192,13 @@ Triangle vertex_on_sample(Random& r, int width, int height) {
 
 // Long and `thickness` pixels thick, through a sample or beside it.
 Triangle sliver(Random& r, int width, int height, double thickness) {
-  const double angle = in(r, 0, 6.283185307179586), length = in(r, 4, 2.0 * (width + height));
-  const double dx = std::cos(angle), dy = std::sin(angle);
+  const double length = in(r, 4, 2.0 * (width + height)), u = in(r, -1, 1), v = in(r, -1, 1);
+  const double norm = std::sqrt(u * u + v * v) + 1e-9, dx = u / norm, dy = v / norm;
   const Point s = sample(r, width, height);
   const double x = s.x + in(r, -1, 1) * thickness, y = s.y + in(r, -1, 1) * thickness;
   const double along = in(r, -1, 1) * length;
-  return {at(x - dx * length, y - dy * length), at(x + dx * length, y + dy * length),
-          at(x + dx * along - dy * thickness, y + dy * along + dx * thickness)};
+  return {at(RealPoint{x - dx * length, y - dy * length}), at(RealPoint{x + dx * length, y + dy * length}),
+          at(RealPoint{x + dx * along - dy * thickness, y + dy * along + dx * thickness})};
 }
 
 // Points around the target with W of the signs given: +1, -1, 0 a vertex. A vertex with W = 0 lies at infinity.
@@ -170,8 +212,8 @@ Triangle with_w_signs(Random& r, int width, int height, std::array<int, 3> signs
       t[i] = at(p, w == 0 ? 1 : w);
       t[i].w = w;
     } else {
-      const double w = signs[i] * in(r, 0.1, 4);
-      t[i] = at(in(r, -width, 2 * width), in(r, -height, 2 * height), w == 0 ? sign(r) : w);
+      const double w = signs[i] * in(r, 0.1, 4), scale = signs[i] == 0 ? sign(r) : w;
+      t[i] = at(RealPoint{in(r, -width, 2 * width), in(r, -height, 2 * height)}, scale);
       t[i].w = static_cast<float>(w);
     }
     if (signs[i] == 0 && r.one_in(3)) t[i].x = t[i].x - std::floor(t[i].x) - 0.5f;  // directions of every angle
@@ -190,15 +232,33 @@ Vertex small_integer(Random& r, int size) {
 
 // The categories, in the order of the table below.
 
-Triangle lattice_1(Random& r, int w, int h) { return on_lattice(r, w, h, 1); }
-Triangle lattice_2(Random& r, int w, int h) { return on_lattice(r, w, h, 2); }
-Triangle lattice_16(Random& r, int w, int h) { return on_lattice(r, w, h, 16); }
-Triangle lattice_256(Random& r, int w, int h) { return on_lattice(r, w, h, 256); }
-Triangle on_sample(Random& r, int w, int h) { return finished(r, vertex_on_sample(r, w, h)); }
-Triangle horizontal(Random& r, int w, int h) { return finished(r, edge_through(r, w, h, 1, 0)); }
-Triangle vertical(Random& r, int w, int h) { return finished(r, edge_through(r, w, h, 0, 1)); }
-Triangle diagonal(Random& r, int w, int h) { return finished(r, edge_through(r, w, h, 1, r.one_in(2) ? 1 : -1)); }
-Triangle any_direction(Random& r, int w, int h) { return finished(r, edge_through_samples(r, w, h)); }
+Triangle lattice_1(Random& r, int w, int h) {
+  return on_lattice(r, w, h, 1);
+}
+Triangle lattice_2(Random& r, int w, int h) {
+  return on_lattice(r, w, h, 2);
+}
+Triangle lattice_16(Random& r, int w, int h) {
+  return on_lattice(r, w, h, 16);
+}
+Triangle lattice_256(Random& r, int w, int h) {
+  return on_lattice(r, w, h, 256);
+}
+Triangle on_sample(Random& r, int w, int h) {
+  return finished(r, vertex_on_sample(r, w, h));
+}
+Triangle horizontal(Random& r, int w, int h) {
+  return finished(r, edge_through(r, w, h, 1, 0));
+}
+Triangle vertical(Random& r, int w, int h) {
+  return finished(r, edge_through(r, w, h, 0, 1));
+}
+Triangle diagonal(Random& r, int w, int h) {
+  return finished(r, edge_through(r, w, h, 1, r.one_in(2) ? 1 : -1));
+}
+Triangle any_direction(Random& r, int w, int h) {
+  return finished(r, edge_through_samples(r, w, h));
+}
 
 Triangle near_collinear(Random& r, int w, int h) {
   const Point s = sample(r, w, h);
@@ -223,14 +283,18 @@ Triangle one_ulp_off(Random& r, int w, int h) {
   return finished(r, t);
 }
 
-Triangle sliver_1(Random& r, int w, int h) { return finished(r, sliver(r, w, h, 1)); }
-Triangle sliver_thin(Random& r, int w, int h) { return finished(r, sliver(r, w, h, 1e-3)); }
+Triangle sliver_1(Random& r, int w, int h) {
+  return finished(r, sliver(r, w, h, 1));
+}
+Triangle sliver_thin(Random& r, int w, int h) {
+  return finished(r, sliver(r, w, h, 1e-3));
+}
 
 Triangle sub_pixel(Random& r, int w, int h) {
   const Point s = sample(r, w, h);
   const double size = std::ldexp(1.0, -r.between(0, 20));
   Triangle t;
-  for (Vertex& v : t) v = at(s.x + in(r, -1, 1) * size, s.y + in(r, -1, 1) * size);
+  for (Vertex& v : t) v = at(RealPoint{s.x + in(r, -1, 1) * size, s.y + in(r, -1, 1) * size});
   if (r.one_in(4)) t[r.below(3)] = at(s);
   return finished(r, t);
 }
@@ -256,19 +320,35 @@ Triangle scaled_down(Random& r, int w, int h, int low, int high) {
   for (Vertex& v : t) v = scaled(v, power_of_two(r, low, high));
   return t;
 }
-Triangle tiny(Random& r, int w, int h) { return scaled_down(r, w, h, -120, -60); }
-Triangle subnormal(Random& r, int w, int h) { return scaled_down(r, w, h, -147, -126); }
+Triangle tiny(Random& r, int w, int h) {
+  return scaled_down(r, w, h, -120, -60);
+}
+Triangle subnormal(Random& r, int w, int h) {
+  return scaled_down(r, w, h, -147, -126);
+}
 
-Triangle w_negative_one(Random& r, int w, int h) { return with_w_signs(r, w, h, {-1, 1, 1}); }
-Triangle w_negative_two(Random& r, int w, int h) { return with_w_signs(r, w, h, {-1, -1, 1}); }
-Triangle behind(Random& r, int w, int h) { return with_w_signs(r, w, h, {-1, -1, -1}); }
-Triangle w_zero_one(Random& r, int w, int h) { return with_w_signs(r, w, h, {0, 1, r.one_in(3) ? -1 : 1}); }
-Triangle w_zero_two(Random& r, int w, int h) { return with_w_signs(r, w, h, {0, 0, r.one_in(8) ? 0 : 1}); }
+Triangle w_negative_one(Random& r, int w, int h) {
+  return with_w_signs(r, w, h, {-1, 1, 1});
+}
+Triangle w_negative_two(Random& r, int w, int h) {
+  return with_w_signs(r, w, h, {-1, -1, 1});
+}
+Triangle behind(Random& r, int w, int h) {
+  return with_w_signs(r, w, h, {-1, -1, -1});
+}
+Triangle w_zero_one(Random& r, int w, int h) {
+  return with_w_signs(r, w, h, {0, 1, r.one_in(3) ? -1 : 1});
+}
+Triangle w_zero_two(Random& r, int w, int h) {
+  return with_w_signs(r, w, h, {0, 0, r.one_in(8) ? 0 : 1});
+}
 
 Triangle w_tiny(Random& r, int w, int h) {
   Triangle t = with_w_signs(r, w, h, {r.one_in(2) ? 1 : -1, 1, 1});
-  for (int n = r.between(1, 2), i = 0; i < n; ++i)
-    t[static_cast<std::size_t>(i)].w = sign(r) * std::ldexp(1.0f, -r.between(20, 149));
+  for (int n = r.between(1, 2), i = 0; i < n; ++i) {
+    const float size = power_of_two(r, -149, -20);
+    t[static_cast<std::size_t>(i)].w = sign(r) * size;
+  }
   return t;
 }
 
@@ -296,8 +376,15 @@ Triangle small_integers(Random& r, int w, int h) {
   return finished(r, {small_integer(r, w), small_integer(r, h), small_integer(r, w)});
 }
 
-Triangle near_tie(Random& r, int w, int h) { return finished(r, nearly_tied_triangle(r, w, h)); }
-Triangle near_degenerate(Random& r, int w, int h) { return finished(r, nearly_degenerate_triangle(r, w, h)); }
+Triangle near_tie(Random& r, int w, int h) {
+  return finished(r, nearly_tied_triangle(r, w, h));
+}
+Triangle near_degenerate(Random& r, int, int) {
+  return finished(r, nearly_degenerate_triangle(r));
+}
+Triangle near_degenerate_tied(Random& r, int w, int h) {
+  return finished(r, nearly_degenerate_tied_triangle(r, w, h));
+}
 
 Triangle not_finite(Random& r, int w, int h) {
   Triangle t = finished(r, ordinary_points(r, w, h));
@@ -312,23 +399,30 @@ Triangle far_off_screen(Random& r, int w, int h) {
   Triangle t;
   for (Vertex& v : t) {
     const double reach = std::ldexp(1.0, r.between(20, 31));
-    v = r.one_in(2) ? at(in(r, -reach, reach), in(r, -reach, reach))
-                    : at(std::floor(in(r, -reach, reach)) + 0.5, std::floor(in(r, -reach, reach)) + 0.5);
+    RealPoint p{in(r, -reach, reach), in(r, -reach, reach)};
+    if (r.one_in(2)) p = {std::floor(p.x) + 0.5, std::floor(p.y) + 0.5};
+    v = at(p);
   }
   if (r.one_in(3)) t[0] = at(sample(r, w, h));
   return finished(r, t);
 }
 
-Triangle ordinary(Random& r, int w, int h) { return finished(r, ordinary_points(r, w, h)); }
+Triangle ordinary(Random& r, int w, int h) {
+  return finished(r, ordinary_points(r, w, h));
+}
 
 Triangle perspective(Random& r, int w, int h) {
   Triangle t;
   const double near = in(r, 0.5, 2);
-  for (Vertex& v : t) v = at(in(r, -3, w + 3), in(r, -3, h + 3), near + in(r, 0, 8));
+  for (Vertex& v : t) {
+    const double depth = near + in(r, 0, 8);
+    v = at(RealPoint{in(r, -3, w + 3), in(r, -3, h + 3)}, depth);
+  }
   return with_depths(r, t);
 }
 
-// Depth on purpose. A right triangle with legs of a power of two has D = 2^k, so that quotients end and halfway cases occur.
+// Depth on purpose. A right triangle with legs of a power of two has D = 2^k, so that quotients end and halfway cases
+// occur.
 Triangle power_of_two_legs(Random& r, int w, int h) {
   const Point s = sample(r, w, h);
   const float leg = power_of_two(r, 1, 5);
@@ -417,8 +511,9 @@ constexpr Category kCategories[] = {
     {"equal-vertices", "two or three vertices alike: D = 0", equal_vertices},
     {"collinear", "a vertex that is a combination of the others: D = 0", collinear},
     {"small-integers", "integer vectors in front of, through and behind the eye", small_integers},
-    {"near-tie", "an edge function of a few units between terms of 2^60", near_tie},
-    {"near-degenerate", "D of a few units between terms of 2^60, an edge through a sample", near_degenerate},
+    {"near-tie", "an edge function of a few units between terms of up to 2^70", near_tie},
+    {"near-degenerate", "D of a few units between terms of 2^66", near_degenerate},
+    {"near-degenerate-tied", "D of a few units, an edge exactly through a sample", near_degenerate_tied},
     {"not-finite", "a NaN or an infinity in a vertex: dropped", not_finite},
     {"far-off-screen", "vertices 2^20 to 2^31 pixels away", far_off_screen},
     {"ordinary", "random triangles on the screen", ordinary},
@@ -433,6 +528,8 @@ constexpr Category kCategories[] = {
 
 }  // namespace
 
-std::span<const Category> categories() { return kCategories; }
+std::span<const Category> categories() {
+  return kCategories;
+}
 
 }  // namespace surefill::properties

@@ -44,21 +44,31 @@ float random_finite(Random& random) {
 class AttributeValues {
  public:
   explicit AttributeValues(Random& random)
-      : kind_(random.below(9)), base_(static_cast<float>(random.unit() * 2 - 1)),
+      : kind_(random.below(9)),
+        base_(static_cast<float>(random.unit() * 2 - 1)),
         exponent_(random.one_in(3) ? -random.between(120, 148) : -random.between(0, 20)) {}
 
   float operator()(Random& random) const {
     constexpr float kEnds[] = {kMax, -kMax, 0x1p-149f, -0x1p-149f, 0x1p-126f, 0.0f, -0.0f};
     switch (kind_) {
-      case 0: return base_;                                                             // constant (I4)
-      case 1: return random.one_in(2) ? base_ : std::nextafter(base_, kInfinity);       // neighbours: halfway cases
-      case 2: return random.one_in(2) ? base_ * 0x1p80f : -base_ * 0x1p80f;             // cancellation
-      case 3: return std::ldexp(static_cast<float>(random.between(-9, 9)), -149);       // subnormals
-      case 4: return one_of(random, kEnds);                                             // overflow, underflow
-      case 5: return static_cast<float>(random.below(2));                               // 0 and 1
-      case 6: return std::ldexp(1 + static_cast<float>(random.below(1u << 23)) * 0x1p-23f, exponent_);
-      case 7: return random_finite(random);
-      default: return static_cast<float>(random.unit());
+      case 0:
+        return base_;  // constant (I4)
+      case 1:
+        return random.one_in(2) ? base_ : std::nextafter(base_, kInfinity);  // neighbours: halfway cases
+      case 2:
+        return random.one_in(2) ? base_ * 0x1p80f : -base_ * 0x1p80f;  // cancellation
+      case 3:
+        return std::ldexp(static_cast<float>(random.between(-9, 9)), -149);  // subnormals
+      case 4:
+        return one_of(random, kEnds);  // overflow, underflow
+      case 5:
+        return static_cast<float>(random.below(2));  // 0 and 1
+      case 6:
+        return std::ldexp(1 + static_cast<float>(random.below(1u << 23)) * 0x1p-23f, exponent_);
+      case 7:
+        return random_finite(random);
+      default:
+        return static_cast<float>(random.unit());
     }
   }
 
@@ -135,14 +145,14 @@ void add_identifiers(Scene& scene, Random& random) {
 }
 
 void add_initial_depth(Scene& scene, Random& random) {
-  const std::size_t values = random.one_in(2) ? 1
-                                              : static_cast<std::size_t>(scene.width) *
-                                                    static_cast<std::size_t>(scene.height) *
-                                                    static_cast<std::size_t>(scene.samples);
+  const std::size_t values = random.one_in(2)
+                                 ? 1
+                                 : static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height) *
+                                       static_cast<std::size_t>(scene.samples);
   for (std::size_t i = 0; i < values; ++i)
-    scene.initial_depth.push_back(one_of(random, {0.5f, 1.0f, 0.0f, -0.0f, kInfinity, -kInfinity,
-                                                  std::numeric_limits<float>::quiet_NaN(), 0x1p-149f,
-                                                  static_cast<float>(random.unit())}));
+    scene.initial_depth.push_back(
+        one_of(random, {0.5f, 1.0f, 0.0f, -0.0f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(),
+                        0x1p-149f, static_cast<float>(random.unit())}));
 }
 
 void add_draw_state(SceneDraw& draw, const Scene& scene, Random& random) {
@@ -156,8 +166,12 @@ void add_draw_state(SceneDraw& draw, const Scene& scene, Random& random) {
     // The viewport of the identity map (S3) keeps a category's aim; any other moves it.
     Viewport identity{-1, -1, 2, 2, 0, 1, ClipDepth::zero_to_one, ClipY::down};
     if (random.one_in(2))
-      identity = {static_cast<float>(random.between(-2, 2)), static_cast<float>(random.between(-2, 2)),
-                  static_cast<float>(scene.width), static_cast<float>(scene.height) / 4, 0.25f, 1,
+      identity = {static_cast<float>(random.between(-2, 2)),
+                  static_cast<float>(random.between(-2, 2)),
+                  static_cast<float>(scene.width),
+                  static_cast<float>(scene.height) / 4,
+                  0.25f,
+                  1,
                   one_of(random, {ClipDepth::zero_to_one, ClipDepth::minus_one_to_one}),
                   one_of(random, {ClipY::up, ClipY::down})};
     draw.viewport = identity;
@@ -188,16 +202,18 @@ Scene random_scene(const Category& category, std::uint64_t seed, const SceneLimi
     const std::span<const Category> all = categories();
     const bool same = i < draws || random.one_in(2);
     const Category& used = same ? category : all[random.below(static_cast<std::uint32_t>(all.size()))];
-    append_triangle(scene.draws[static_cast<std::size_t>(i % draws)],
-                    used.triangle(random, scene.width, scene.height), random);
+    append_triangle(scene.draws[static_cast<std::size_t>(i % draws)], used.triangle(random, scene.width, scene.height),
+                    random);
   }
   if (limits.attributes && !conservative) add_attributes(scene, random);
 
   if (limits.state) {
     for (SceneDraw& draw : scene.draws) add_draw_state(draw, scene, random);
     if (random.one_in(3)) scene.depth_test = DepthTest::greater;
-    if (random.one_in(3)) add_identifiers(scene, random);
-    else if (random.one_in(4)) scene.draws[0].first_index = one_of(random, {7u, 0x7FFFFFFFu, kNoTriangle - 1000u});
+    if (random.one_in(3))
+      add_identifiers(scene, random);
+    else if (random.one_in(4))
+      scene.draws[0].first_index = one_of(random, {7u, 0x7FFFFFFFu, kNoTriangle - 1000u});
     if (!conservative && random.one_in(3)) add_initial_depth(scene, random);
     if (random.one_in(2)) scene.attribute_location = AttributeLocation::centroid;
   }

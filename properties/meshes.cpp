@@ -61,7 +61,8 @@ std::vector<Indices> convex_hull(std::span<const std::array<float, 3>> points) {
   bool solid = false;
   for (std::size_t i = 3; i < corners.size() && !solid; ++i)
     for (std::size_t j = 2; j < i && !solid; ++j)
-      for (std::size_t k = 1; k < j && !solid; ++k) solid = !CGAL::coplanar(corners[0], corners[i], corners[j], corners[k]);
+      for (std::size_t k = 1; k < j && !solid; ++k)
+        solid = !CGAL::coplanar(corners[0], corners[i], corners[j], corners[k]);
   if (!solid) return {};
   CGAL::convex_hull_3(corners.begin(), corners.end(), hull);
   std::vector<Indices> triangles;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Meshes for the theorems that speak of meshes, and the exact geometry (CGAL) behind them. Coordinates are taken as they
-// are: a mesh tiles, or is convex, over the real numbers and not up to rounding.
+// Meshes for the theorems that speak of meshes, and the exact geometry (CGAL) behind them. Coordinates are taken as
+// they are: a mesh tiles, or is convex, over the real numbers and not up to rounding.
 #ifndef SUREFILL_PROPERTIES_MESHES_HPP
 #define SUREFILL_PROPERTIES_MESHES_HPP
 

@@ -77,19 +77,28 @@ bool fits(const IntegerVector& v) {
   return std::all_of(v.begin(), v.end(), [](Integer c) { return c < (1 << 24) && c > -(1 << 24); });
 }
 
-Vertex to_vertex(const IntegerVector& v, int exponent) {
-  const auto component = [&](std::size_t i) { return std::ldexp(static_cast<float>(static_cast<int>(v[i])), exponent); };
+// v 2^exponent, and all components but `axis` 2^lift more.
+Vertex to_vertex(const IntegerVector& v, int exponent, std::size_t axis = 0, int lift = 0) {
+  const auto component = [&](std::size_t i) {
+    return std::ldexp(static_cast<float>(static_cast<int>(v[i])), exponent + (i == axis ? 0 : lift));
+  };
   return {component(0), component(1), 0, component(2)};
 }
 
-Integer signed_bits(Random& random, int bits) { return random.between(-(1 << bits), (1 << bits) - 1); }
+Integer signed_bits(Random& random, int bits) {
+  return random.between(-(1 << bits), (1 << bits) - 1);
+}
 
 // Twice a sample as a homogeneous integer vector (2 px, 2 py, 2).
 IntegerVector doubled_sample(Random& random, int width, int height) {
   return {2 * random.between(0, width - 1) + 1, 2 * random.between(0, height - 1) + 1, 2};
 }
 
-double power(Random& random, double low, double high) { return std::exp2(low + (high - low) * random.unit()); }
+// Between 2^low and 2^(high + 1).
+double magnitude(Random& random, int low, int high) {
+  const int exponent = random.between(low, high);
+  return std::ldexp(1 + random.unit(), exponent);
+}
 
 }  // namespace
 
@@ -98,19 +107,46 @@ std::array<Vertex, 3> nearly_tied_triangle(Random& random, int width, int height
     const IntegerVector p = doubled_sample(random, width, height);
     const IntegerVector a = {signed_bits(random, 23), signed_bits(random, 23),
                              signed_bits(random, random.between(1, 23))};
-    const auto b = solve(cross(p, a), random.between(-4, 4), power(random, 20, 23.9), random);  // det(a, b, p) = t
+    // Two axes of b are lifted by a power of two: the coefficients of E then need more bits than double has, also where
+    // p is small. Solutions of 24 bits want n below 2^48.
+    const std::size_t axis = random.below(3);
+    int room = 17;
+    for (int size = std::max(width, height); size > 1; size /= 2) --room;
+    const int lift = random.one_in(4) ? 0 : random.between(0, room);
+    IntegerVector n = cross(p, a);
+    for (std::size_t i = 0; i < 3; ++i)
+      if (i != axis) n[i] *= Integer{1} << lift;
+    const Integer t = random.between(-4, 4);
+    const double reach = magnitude(random, 20, 22);
+    const auto b = solve(n, t, reach, random);  // det(a, b, p) = t
     if (!b || !fits(*b)) continue;
     const int exponent = random.between(-60, 60);
     // The third vertex anywhere around, so that the sample is often between the three.
-    const double w = (random.one_in(2) ? 1 : -1) * (0.1 + 1.9 * random.unit());
+    const int sign = random.one_in(2) ? 1 : -1;
+    const double w = sign * (0.1 + 1.9 * random.unit());
     const double x = static_cast<double>(p[0]) / 2 + 400 * random.unit() - 200;
     const double y = static_cast<double>(p[1]) / 2 + 400 * random.unit() - 200;
-    return {to_vertex(a, exponent + random.between(-20, 20)), to_vertex(*b, exponent + random.between(-20, 20)),
+    return {to_vertex(a, exponent + random.between(-20, 20)),
+            to_vertex(*b, exponent + random.between(-20, 20), axis, lift),
             Vertex{static_cast<float>(x * w), static_cast<float>(y * w), 0, static_cast<float>(w)}};
   }
 }
 
-std::array<Vertex, 3> nearly_degenerate_triangle(Random& random, int width, int height) {
+std::array<Vertex, 3> nearly_degenerate_triangle(Random& random) {
+  for (;;) {
+    IntegerVector a, b;
+    for (Integer& c : a) c = signed_bits(random, 22);
+    for (Integer& c : b) c = signed_bits(random, 22);
+    const Integer d = random.between(-3, 3);
+    const double reach = magnitude(random, 15, 22);
+    const auto c = solve(cross(a, b), d, reach, random);
+    if (!c || !fits(*c)) continue;
+    const int exponent = random.between(-40, 40);
+    return {to_vertex(a, exponent), to_vertex(b, exponent), to_vertex(*c, exponent)};
+  }
+}
+
+std::array<Vertex, 3> nearly_degenerate_tied_triangle(Random& random, int width, int height) {
   for (;;) {
     const IntegerVector p = doubled_sample(random, width, height);
     const int bits = random.between(8, 22);
@@ -121,7 +157,9 @@ std::array<Vertex, 3> nearly_degenerate_triangle(Random& random, int width, int 
     const IntegerVector n = cross(a, b);
     const Integer g = extended_gcd(extended_gcd(n[0], n[1]).gcd, n[2]).gcd;
     if (g == 0) continue;
-    const auto c = solve(n, g * random.between(-2, 2), power(random, 15, 23.5), random);
+    const Integer d = g * random.between(-2, 2);
+    const double reach = magnitude(random, 15, 22);
+    const auto c = solve(n, d, reach, random);
     if (!c || !fits(a) || !fits(b) || !fits(*c)) continue;
     const int exponent = random.between(-40, 40);
     const auto spread = [&] { return exponent + random.between(-20, 20); };

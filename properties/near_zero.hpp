@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles whose determinants nearly vanish: integers of a few units left of terms as large as float32 allows, where any
-// rounding of an intermediate result changes a sign. Found by solving n . v = t in integers and reducing the solution.
+// Triangles whose determinants nearly vanish: integers of a few units left of terms as large as float32 allows, where
+// any rounding of an intermediate result changes a sign. Found by solving n . v = t in integers and reducing the
+// solution.
 #ifndef SUREFILL_PROPERTIES_NEAR_ZERO_HPP
 #define SUREFILL_PROPERTIES_NEAR_ZERO_HPP
 
@@ -14,8 +15,11 @@ namespace surefill::properties {
 // An edge function of at most four units (or exactly 0) at a sample of the target.
 std::array<Vertex, 3> nearly_tied_triangle(Random& random, int width, int height);
 
-// An edge exactly through a sample, and |D| of at most a few units.
-std::array<Vertex, 3> nearly_degenerate_triangle(Random& random, int width, int height);
+// |D| of at most three units, of terms of 2^66.
+std::array<Vertex, 3> nearly_degenerate_triangle(Random& random);
+
+// |D| of at most two units of its greatest common divisor, and an edge exactly through a sample.
+std::array<Vertex, 3> nearly_degenerate_tied_triangle(Random& random, int width, int height);
 
 }  // namespace surefill::properties
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// T1: triangles that tile a region cover each sample in it exactly once. Every mesh here tiles more than the target, over
-// the reals, so that the expectation is trivial: the count is 1 everywhere.
+// T1: triangles that tile a region cover each sample in it exactly once. Every mesh here tiles more than the target,
+// over the reals, so that the expectation is trivial: the count is 1 everywhere.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,16 +20,15 @@ struct Size {
   int width, height;
 };
 
-Size random_size(Random& r) { return {r.between(1, 20), r.between(1, 20)}; }
+Size random_size(Random& r) {
+  return {r.between(1, 20), r.between(1, 20)};
+}
 
-// Same mesh, same directions of its vertices, other float32: each vertex, or each corner of each triangle, scaled by its own
-// power of two (T4); triangles in any order, facing and rotation; any fill rule.
+// Same mesh, same directions of its vertices, other float32: each vertex, or each corner of each triangle, scaled by
+// its own power of two (T4); triangles in any order, facing and rotation; any fill rule.
 corpus::Scene disguised(Mesh mesh, Size size, Random& r) {
   const std::uint32_t kind = r.below(3);
-  const auto scaled = [&](Vertex v) {
-    const float s = std::ldexp(1.0f, r.between(-30, 30));
-    return Vertex{v.x * s, v.y * s, v.z * s, v.w * s};
-  };
+  const auto scaled = [&](Vertex v) { return scaled_exactly(v, r.between(-30, 30)).value_or(v); };
   if (kind == 1) std::transform(mesh.vertices.begin(), mesh.vertices.end(), mesh.vertices.begin(), scaled);
   for (std::size_t i = mesh.triangles.size(); i > 0; --i) {
     Indices& t = mesh.triangles[i - 1];
@@ -48,6 +47,10 @@ corpus::Scene disguised(Mesh mesh, Size size, Random& r) {
   return scene;
 }
 
+float nudged(Random& r, float value) {
+  return std::nextafter(value, r.one_in(2) ? 1e30f : -1e30f);
+}
+
 std::uint32_t add(Mesh& mesh, float x, float y) {
   mesh.vertices.push_back({x, y, 0, 1});
   return static_cast<std::uint32_t>(mesh.vertices.size() - 1);
@@ -63,7 +66,8 @@ std::vector<float> lines(Random& r, int size, int q) {
   return at;
 }
 
-// The points of a lattice of 1/q pixel, at random, and four corners around the target: many edges and vertices lie on samples.
+// The points of a lattice of 1/q pixel, at random, and four corners around the target: many edges and vertices lie on
+// samples.
 Mesh delaunay_mesh(Random& r, Size size, float x0, float x1) {
   std::vector<std::array<float, 2>> points;
   const auto height = static_cast<float>(size.height);
@@ -71,12 +75,17 @@ Mesh delaunay_mesh(Random& r, Size size, float x0, float x1) {
     for (const float y : {-1.5f, height + 1.5f}) points.push_back({x, y});
   const int resolutions[] = {2, 2, 4, 16, 256, 0};
   const int q = resolutions[r.below(6)];
+  const bool off = r.one_in(3);  // an ulp off the lattice: edges pass samples as closely as float32 can
   for (int n = r.between(0, 60); n > 0; --n) {
     const double x = x0 + (x1 - x0) * r.unit(), y = -1.5 + (height + 3) * r.unit();
-    if (q == 0) points.push_back({static_cast<float>(x), static_cast<float>(y)});  // any float32
-    else points.push_back({std::max(x0, static_cast<float>(std::floor(x * q) / q)),
-                           static_cast<float>(std::floor(y * q) / q)});
-    points.back()[0] = std::min(points.back()[0], x1);
+    if (q == 0)
+      points.push_back({static_cast<float>(x), static_cast<float>(y)});  // any float32
+    else
+      points.push_back(
+          {std::max(x0, static_cast<float>(std::floor(x * q) / q)), static_cast<float>(std::floor(y * q) / q)});
+    if (off)
+      for (float& c : points.back()) c = nudged(r, c);
+    points.back()[0] = std::clamp(points.back()[0], x0, x1);
   }
   Mesh mesh;
   for (const auto& p : points) add(mesh, p[0], p[1]);
@@ -96,8 +105,7 @@ corpus::Scene make_adjacent(std::uint64_t seed) {
   const Size size = random_size(r);
   const float seam = static_cast<float>(r.between(0, size.width - 1)) + 0.5f;
   corpus::Scene left = disguised(delaunay_mesh(r, size, -1.5f, seam), size, r);
-  const corpus::Scene right =
-      disguised(delaunay_mesh(r, size, seam, static_cast<float>(size.width) + 1.5f), size, r);
+  const corpus::Scene right = disguised(delaunay_mesh(r, size, seam, static_cast<float>(size.width) + 1.5f), size, r);
   left.draws.push_back(right.draws[0]);
   left.draws[1].fill_rule = left.draws[0].fill_rule;
   return left;
@@ -108,8 +116,8 @@ corpus::Scene make_fan(std::uint64_t seed) {
   Random r(seed ^ 0xFA17);
   const Size size = random_size(r);
   Mesh mesh;
-  add(mesh, static_cast<float>(r.between(0, size.width - 1)) + 0.5f,
-      static_cast<float>(r.between(0, size.height - 1)) + 0.5f);
+  const int column = r.between(0, size.width - 1), row = r.between(0, size.height - 1);
+  add(mesh, static_cast<float>(column) + 0.5f, static_cast<float>(row) + 0.5f);
   // In half pixels, once around; the corners always, the points between them at random.
   const int x1 = 2 * size.width + 3, y1 = 2 * size.height + 3, step = r.between(1, 12);
   const auto spoke = [&](int x, int y) { add(mesh, static_cast<float>(x) / 2, static_cast<float>(y) / 2); };
@@ -129,11 +137,16 @@ corpus::Scene make_quads(std::uint64_t seed) {
   const int resolutions[] = {2, 2, 1, 4, 16};
   const int q = resolutions[r.below(5)];
   const std::vector<float> xs = lines(r, size.width, q);
-  const std::vector<float> ys = r.one_in(4) ? std::vector<float>{-0.5f, static_cast<float>(size.height) + 0.5f}
-                                            : lines(r, size.height, q);
+  const std::vector<float> ys =
+      r.one_in(4) ? std::vector<float>{-0.5f, static_cast<float>(size.height) + 0.5f} : lines(r, size.height, q);
   Mesh mesh;
   for (const float y : ys)
     for (const float x : xs) add(mesh, x, y);
+  if (r.one_in(3))  // still convex quads: an ulp is far less than a line's distance to the next
+    for (Vertex& v : mesh.vertices) {
+      v.x = nudged(r, v.x);
+      v.y = nudged(r, v.y);
+    }
   const auto columns = static_cast<std::uint32_t>(xs.size());
   for (std::uint32_t row = 0; row + 1 < ys.size(); ++row)
     for (std::uint32_t column = 0; column + 1 < columns; ++column) {
@@ -230,9 +243,12 @@ Splitter::Vector doubled_sample(Random& r, Size size) {
 
 Mesh split_at_random(Splitter splitter, Random& r, Size size) {
   for (int n = r.between(0, 40); n > 0; --n) {
-    if (r.one_in(4)) splitter.split_at(doubled_sample(r, size));
-    else if (r.one_in(4)) splitter.split_inside(r);
-    else splitter.split_edge(r);
+    if (r.one_in(4))
+      splitter.split_at(doubled_sample(r, size));
+    else if (r.one_in(4))
+      splitter.split_inside(r);
+    else
+      splitter.split_edge(r);
   }
   return splitter.mesh();
 }
@@ -241,14 +257,14 @@ Mesh split_at_random(Splitter splitter, Random& r, Size size) {
 corpus::Scene make_t_junctions(std::uint64_t seed) {
   Random r(seed ^ 0x7777);
   const Size size = random_size(r);
-  const std::int64_t x1 = 2 * size.width + r.between(1, 9), y1 = 2 * size.height + r.between(1, 9), x0 = -r.between(1, 9),
-                     y0 = -r.between(1, 9);
+  const std::int64_t x1 = 2 * size.width + r.between(1, 9), y1 = 2 * size.height + r.between(1, 9),
+                     x0 = -r.between(1, 9), y0 = -r.between(1, 9);
   const Splitter::Vector a = {x0, y0, 2}, b = {x1, y0, 2}, c = {x0, y1, 2}, d = {x1, y1, 2};
   return disguised(split_at_random(Splitter({{a, b, c}, {d, c, b}}), r, size), size, r);
 }
 
-// All directions around the eye: the eight cones of three vectors (T3), cut again and again. Vertices lie in front of the
-// eye, behind it and at infinity; each sample's ray still meets one triangle.
+// All directions around the eye: the eight cones of three vectors (T3), cut again and again. Vertices lie in front of
+// the eye, behind it and at infinity; each sample's ray still meets one triangle.
 corpus::Scene make_all_around(std::uint64_t seed) {
   Random r(seed ^ 0xA77);
   const Size size = random_size(r);
@@ -280,21 +296,23 @@ Verdict decide(const corpus::Scene& scene, const Renderer& renderer) {
 }
 
 constexpr Property kProperties[] = {
-    {"partition-delaunay", "T1", "Delaunay meshes on lattices that contain samples cover each sample once", false, false, 0,
-     make_delaunay, decide},
-    {"partition-adjacent", "T1", "two meshes that meet along a line through samples cover each sample once", false, false,
-     0, make_adjacent, decide},
+    {"partition-delaunay", "T1", "Delaunay meshes on lattices that contain samples cover each sample once", false,
+     false, 0, make_delaunay, decide},
+    {"partition-adjacent", "T1", "two meshes that meet along a line through samples cover each sample once", false,
+     false, 0, make_adjacent, decide},
     {"partition-fan", "T1", "the triangles around a sample cover it, and every other, once", false, false, 0, make_fan,
      decide},
     {"partition-quads", "T1", "strips and grids of quads cover each sample once", false, false, 0, make_quads, decide},
-    {"partition-t-junctions", "T1", "tilings with T-junctions cover each sample once", false, false, 0, make_t_junctions,
-     decide},
+    {"partition-t-junctions", "T1", "tilings with T-junctions cover each sample once", false, false, 0,
+     make_t_junctions, decide},
     {"partition-all-around", "T1", "triangles all around the eye cover each sample once", false, false, 0,
      make_all_around, decide},
 };
 
 }  // namespace
 
-std::span<const Property> partition_properties() { return kProperties; }
+std::span<const Property> partition_properties() {
+  return kProperties;
+}
 
 }  // namespace surefill::properties

@@ -87,9 +87,13 @@ std::string text(float value) {
   return buffer;
 }
 
-corpus::SceneVertex scene_vertex(const Vertex& vertex) { return {vertex.x, vertex.y, vertex.z, vertex.w, {}}; }
+corpus::SceneVertex scene_vertex(const Vertex& vertex) {
+  return {vertex.x, vertex.y, vertex.z, vertex.w, {}};
+}
 
-Vertex vertex_of(const corpus::SceneVertex& vertex) { return {vertex.x, vertex.y, vertex.z, vertex.w}; }
+Vertex vertex_of(const corpus::SceneVertex& vertex) {
+  return {vertex.x, vertex.y, vertex.z, vertex.w};
+}
 
 corpus::Scene triangle_scene(int width, int height, const std::array<Vertex, 3>& vertices) {
   corpus::Scene scene;
@@ -109,7 +113,9 @@ corpus::Scene with_one_triangle(const corpus::Scene& scene, std::size_t draw, st
   return one;
 }
 
-const Category& category_of_case(std::uint64_t n) { return categories()[n % categories().size()]; }
+const Category& category_of_case(std::uint64_t n) {
+  return categories()[n % categories().size()];
+}
 
 corpus::Scene pixel_scene(std::uint64_t n, const SceneLimits& limits) {
   corpus::Scene scene = random_scene(category_of_case(n), n / categories().size(), limits);
@@ -142,8 +148,8 @@ std::span<const Property> all_properties() {
   static const std::vector<Property> all = [] {
     std::vector<Property> joined;
     for (const std::span<const Property> list :
-         {equality_properties(), partition_properties(), degree_properties(), symmetry_properties(),
-          value_properties(), frame_properties(), small_world_properties()})
+         {equality_properties(), partition_properties(), degree_properties(), symmetry_properties(), value_properties(),
+          frame_properties(), small_world_properties()})
       joined.insert(joined.end(), list.begin(), list.end());
     return joined;
   }();

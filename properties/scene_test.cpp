@@ -152,6 +152,8 @@ TEST(SceneText, CommentsComeBack) {
     EXPECT_EQ(read_scene(write_scene(scene)).comment, comment) << write_scene(scene);
   }
   Scene scene = triangle_scene();
+  scene.comment = std::string(10000, 'x');
+  EXPECT_TRUE(equal(scene, read_scene(write_scene(scene))));
   scene.comment = std::string("a\0b", 3);
   EXPECT_THROW((void)write_scene(scene), SceneError);
 }

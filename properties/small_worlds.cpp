@@ -85,8 +85,8 @@ corpus::Scene make_shared_edge(std::uint64_t number) {
   return scene;
 }
 
-// Where a and d lie on opposite sides of the line b c, the triangles do not overlap: no sample is covered twice. Where b and c
-// also lie on opposite sides of a d, they tile a convex quad, which its other diagonal cuts, too: same counts.
+// Where a and d lie on opposite sides of the line b c, the triangles do not overlap: no sample is covered twice. Where
+// b and c also lie on opposite sides of a d, they tile a convex quad, which its other diagonal cuts, too: same counts.
 Verdict decide_shared_edge(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   if (scene.draws.empty() || scene.draws[0].triangles.size() < 2) return check.verdict();
@@ -115,18 +115,23 @@ Verdict decide_shared_edge(const corpus::Scene& scene, const Renderer& renderer)
 }
 
 constexpr Property kProperties[] = {
-    {"small-world-homogeneous", "C1-C4", "every triangle over {-1, 0, 1, 2}^3 in (X, Y, W) is the oracle's on 4 x 4", true,
-     true, kHomogeneous, make_homogeneous, decide_all},
-    {"small-world-half-pixel", "C3", "every triangle on the half-pixel lattice of 2 x 2, under every fill rule, is the oracle's",
-     true, true, kHalfPixel, make_half_pixel, decide_all},
-    {"small-world-octants", "T3", "every sign pattern of every triple over {-1, 0, 1, 3}^2 x {0, 1, 2} covers 2 x 2 once", false,
-     true, kOctants, make_octants, decide_octants},
-    {"small-world-shared-edge", "T1", "every two triangles that share an edge on a half-pixel lattice neither overlap nor gape",
-     false, true, kSharedEdge, make_shared_edge, decide_shared_edge},
+    {"small-world-homogeneous", "C1-C4", "every triangle over {-1, 0, 1, 2}^3 in (X, Y, W) is the oracle's on 4 x 4",
+     true, true, kHomogeneous, make_homogeneous, decide_all},
+    {"small-world-half-pixel", "C3",
+     "every triangle on the half-pixel lattice of 2 x 2, under every fill rule, is the oracle's", true, true,
+     kHalfPixel, make_half_pixel, decide_all},
+    {"small-world-octants", "T3",
+     "every sign pattern of every triple over {-1, 0, 1, 3}^2 x {0, 1, 2} covers 2 x 2 once", false, true, kOctants,
+     make_octants, decide_octants},
+    {"small-world-shared-edge", "T1",
+     "every two triangles that share an edge on a half-pixel lattice neither overlap nor gape", false, true,
+     kSharedEdge, make_shared_edge, decide_shared_edge},
 };
 
 }  // namespace
 
-std::span<const Property> small_world_properties() { return kProperties; }
+std::span<const Property> small_world_properties() {
+  return kProperties;
+}
 
 }  // namespace surefill::properties

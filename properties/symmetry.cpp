@@ -13,7 +13,9 @@
 namespace surefill::properties {
 namespace {
 
-corpus::Scene make_one(std::uint64_t n) { return pixel_scene(n, {16, 1, false, false, false, false, false}); }
+corpus::Scene make_one(std::uint64_t n) {
+  return pixel_scene(n, {16, 1, false, false, false, false, false});
+}
 
 corpus::Scene make_frame(std::uint64_t n) {
   SceneLimits limits;
@@ -22,7 +24,9 @@ corpus::Scene make_frame(std::uint64_t n) {
   return pixel_scene(n, limits);
 }
 
-Vertex negated(const Vertex& v) { return {-v.x, -v.y, -v.z, -v.w}; }
+Vertex negated(const Vertex& v) {
+  return {-v.x, -v.y, -v.z, -v.w};
+}
 
 // T3. Also D = 0: then none of the eight covers anything.
 Verdict decide_octants(const corpus::Scene& scene, const Renderer& renderer) {
@@ -68,8 +72,8 @@ Verdict decide_negation(const corpus::Scene& scene, const Renderer& renderer) {
   return check.verdict();
 }
 
-// T4. Every corner of every triangle gets its own scale, wherever that is exact. Perspective weights change, the rest does
-// not: W_i E_i / D keeps its value.
+// T4. Every corner of every triangle gets its own scale, wherever that is exact. Perspective weights change, the rest
+// does not: W_i E_i / D keeps its value.
 Verdict decide_scale(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   corpus::Scene changed = scene;
@@ -92,7 +96,9 @@ Verdict decide_scale(const corpus::Scene& scene, const Renderer& renderer) {
   const auto before = check.draw(scene, outputs), after = check.draw(changed, outputs);
   if (!before || !after) return check.verdict();
   Correspondence correspondence;
-  correspondence.attribute = [](const corpus::SceneAttribute& a) { return a.interpolation != Interpolation::perspective; };
+  correspondence.attribute = [](const corpus::SceneAttribute& a) {
+    return a.interpolation != Interpolation::perspective;
+  };
   check.expect_same("after scaling each vertex by a power of two", scene, *before, *after, correspondence);
   return check.verdict();
 }
@@ -102,13 +108,15 @@ Verdict decide_order(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   corpus::Scene shifted = scene, swapped = scene;
   for (corpus::SceneDraw& draw : shifted.draws)
-    for (corpus::SceneTriangle& t : draw.triangles) std::rotate(t.vertices.begin(), t.vertices.begin() + 1, t.vertices.end());
+    for (corpus::SceneTriangle& t : draw.triangles)
+      std::rotate(t.vertices.begin(), t.vertices.begin() + 1, t.vertices.end());
   for (corpus::SceneDraw& draw : swapped.draws) {
     for (corpus::SceneTriangle& t : draw.triangles) std::swap(t.vertices[1], t.vertices[2]);
     draw.front_face = draw.front_face == FrontFace::clockwise ? FrontFace::counter_clockwise : FrontFace::clockwise;
   }
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto before = check.draw(scene, outputs), shift = check.draw(shifted, outputs), swap = check.draw(swapped, outputs);
+  const auto before = check.draw(scene, outputs), shift = check.draw(shifted, outputs),
+             swap = check.draw(swapped, outputs);
   if (!before || !shift || !swap) return check.verdict();
   Correspondence after_shift;
   after_shift.barycentrics = {2, 0, 1};
@@ -142,7 +150,8 @@ Verdict decide_identifiers(const corpus::Scene& scene, const Renderer& renderer)
   for (corpus::SceneDraw& draw : rotated.draws)
     if (!draw.triangles.empty()) std::rotate(draw.triangles.begin(), draw.triangles.begin() + 1, draw.triangles.end());
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto expected = check.draw(scene, outputs), one = check.draw(reversed, outputs), two = check.draw(rotated, outputs);
+  const auto expected = check.draw(scene, outputs), one = check.draw(reversed, outputs),
+             two = check.draw(rotated, outputs);
   if (!expected || !one || !two) return check.verdict();
   check.expect_same("with identifiers, in reverse order", scene, *expected, *one);
   check.expect_same("with identifiers, in another order", scene, *expected, *two);
@@ -156,13 +165,16 @@ constexpr Property kProperties[] = {
      decide_negation},
     {"scale", "T4", "scaling each vertex by its own power of two changes neither coverage nor depth", false, true, 0,
      make_frame, decide_scale},
-    {"order", "T5", "a cyclic shift changes nothing but names, a swap the facing", false, true, 0, make_frame, decide_order},
-    {"identifiers", "V2", "with identifiers, any order of the triangles gives the same image", false, true, 0, make_frame,
-     decide_identifiers},
+    {"order", "T5", "a cyclic shift changes nothing but names, a swap the facing", false, true, 0, make_frame,
+     decide_order},
+    {"identifiers", "V2", "with identifiers, any order of the triangles gives the same image", false, true, 0,
+     make_frame, decide_identifiers},
 };
 
 }  // namespace
 
-std::span<const Property> symmetry_properties() { return kProperties; }
+std::span<const Property> symmetry_properties() {
+  return kProperties;
+}
 
 }  // namespace surefill::properties

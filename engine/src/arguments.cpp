@@ -28,7 +28,10 @@ struct Bytes {
   Bytes() = default;
   template <typename T>
   explicit Bytes(std::span<T> s) : begin(reinterpret_cast<std::uintptr_t>(s.data())), end(begin + s.size_bytes()) {}
-  bool overlaps(const Bytes& other) const { return begin < other.end && other.begin < end; }
+  // Do they share a byte? Empty ones share none.
+  bool overlaps(const Bytes& other) const {
+    return begin < end && other.begin < other.end && begin < other.end && other.begin < end;
+  }
 };
 
 // The buffers that a frame writes.
@@ -227,12 +230,6 @@ const char* status_text(Status status) noexcept {
       return "a conservative draw allows coverage counts alone, one sample, no depth mode and no grid";
     case Status::draw_grid:
       return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding";
-    case Status::unsupported_samples:
-      return "several samples a pixel are not supported yet";
-    case Status::unsupported_grid:
-      return "grid mode is not supported yet";
-    case Status::unsupported_conservative:
-      return "conservative rasterization is not supported yet";
     case Status::viewport:
       return "a number of the viewport is not finite, or an enumerator is unknown";
     case Status::options_threads:

@@ -117,10 +117,14 @@ inline TieShift tie_shift(FillRule rule) {
 }
 
 // The sign that an edge function takes where it is 0 (C3). a and b are not both 0 there.
-inline int tie_sign(const EdgeFunction& edge, TieShift shift) {
-  const int along_x = sign_of(edge.a) * shift.x, along_y = sign_of(edge.b) * shift.y;
+inline int tie_sign(double a, double b, TieShift shift) {
+  const int along_x = sign_of(a) * shift.x, along_y = sign_of(b) * shift.y;
   if (shift.y_dominates) return along_y != 0 ? along_y : along_x;
   return along_x != 0 ? along_x : along_y;
+}
+
+inline int tie_sign(const EdgeFunction& edge, TieShift shift) {
+  return tie_sign(edge.a, edge.b, shift);
 }
 
 // det(m0, m1, m2), exactly.

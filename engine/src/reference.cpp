@@ -9,6 +9,8 @@
 #include <new>
 
 #include "bounds.hpp"
+#include "conservative.hpp"
+#include "grid.hpp"
 #include "triangle.hpp"
 
 namespace surefill::reference {
@@ -95,7 +97,7 @@ class DrawRenderer {
   void shade(bool shading) {
     const std::size_t pixels = static_cast<std::size_t>(target_.width) * static_cast<std::size_t>(target_.height);
     const auto samples = static_cast<std::size_t>(pattern_.count);
-    std::uint32_t set_up = kNoTriangle;  // the triangle that triangle_ holds
+    std::uint32_t holds = kNoTriangle;  // the triangle that was set up last
     for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
       const std::size_t first = pixel * samples;
       for (std::size_t s = first; s < first + samples; ++s) {
@@ -107,9 +109,8 @@ class DrawRenderer {
           copy_shading(s - 1, s);
           continue;
         }
-        if (position != set_up)
-          triangle_.set_up(corner(position, 0), corner(position, 1), corner(position, 2), unused_);
-        set_up = position;
+        if (position != holds) set_up(position, unused_);
+        holds = position;
         const auto width = static_cast<std::size_t>(target_.width);
         shade_sample(position, shading_position(static_cast<double>(pixel % width), static_cast<double>(pixel / width)),
                      s);
@@ -130,18 +131,15 @@ class DrawRenderer {
         return;
       }
     }
-    const Vertex &v0 = corner(position, 0), &v1 = corner(position, 1), &v2 = corner(position, 2);
-    if (!triangle_.set_up(v0, v1, v2, statistics_)) {
+    if (!set_up(position, statistics_)) {
       ++statistics_.degenerate;
       return;
     }
-    const bool front = (triangle_.determinant() > 0) == (draw_.front_face == FrontFace::clockwise);
-    if (draw_.cull == (front ? Cull::front : Cull::back)) {
+    if (!draw_.grid && culls(triangle_.determinant())) {  // under Grid, facing is a matter of the sample (G1)
       ++statistics_.culled;
       return;
     }
-    PixelBox box{0, 0, 0, 0};
-    if (!limits.empty()) box = screen_box(v0, v1, v2, limits, pattern_.least, pattern_.largest);
+    const PixelBox box = limits.empty() ? PixelBox{0, 0, 0, 0} : box_within(position, limits);
     if (box.empty()) {
       ++statistics_.outside;
       return;
@@ -149,14 +147,59 @@ class DrawRenderer {
     ++statistics_.rasterized;
     for (int y = box.y0; y < box.y1; ++y) {
       for (int x = box.x0; x < box.x1; ++x) {
-        std::size_t s =
-            (static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) + static_cast<std::size_t>(x)) *
-            static_cast<std::size_t>(pattern_.count);
-        for (int n = 0; n < pattern_.count; ++n, ++s) {
-          const SamplePosition p{x + pattern_.offset[n].x, y + pattern_.offset[n].y};
-          if (triangle_.covers(p, shift_, statistics_)) fragment(position, p, s);
+        if (draw_.conservative == Conservative::none) {
+          rasterize_pixel(position, x, y);
+        } else {
+          rasterize_square(x, y);
         }
       }
+    }
+  }
+
+  // False if the triangle covers nothing by C1 or, under Grid, by G1.
+  bool set_up(std::uint32_t position, Statistics& statistics) {
+    const Vertex &v0 = corner(position, 0), &v1 = corner(position, 1), &v2 = corner(position, 2);
+    return draw_.grid ? snapped_.set_up(v0, v1, v2, *draw_.grid, statistics) : triangle_.set_up(v0, v1, v2, statistics);
+  }
+
+  // The pixels of `limits` that the triangle can cover; empty if it has none.
+  PixelBox box_within(std::uint32_t position, const PixelBox& limits) const {
+    if (draw_.grid) return snapped_.box(limits, pattern_.least, pattern_.largest);
+    const bool squares = draw_.conservative != Conservative::none;
+    return screen_box(corner(position, 0), corner(position, 1), corner(position, 2), limits,
+                      squares ? 0 : pattern_.least, squares ? 1 : pattern_.largest);
+  }
+
+  // F2; `facing` has the sign of D, or of N(p).
+  bool culls(int facing) const {
+    const bool front = (facing > 0) == (draw_.front_face == FrontFace::clockwise);
+    return draw_.cull == (front ? Cull::front : Cull::back);
+  }
+
+  std::size_t first_sample(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) + static_cast<std::size_t>(x)) *
+           static_cast<std::size_t>(pattern_.count);
+  }
+
+  void rasterize_pixel(std::uint32_t position, int x, int y) {
+    std::size_t s = first_sample(x, y);
+    for (int n = 0; n < pattern_.count; ++n, ++s) {
+      const SamplePosition p{x + pattern_.offset[n].x, y + pattern_.offset[n].y};
+      if (draw_.grid) {
+        const int facing = snapped_.winding(p, shift_);
+        if (facing != 0 && !culls(facing)) fragment(position, p, s);
+      } else if (triangle_.covers(p, shift_, statistics_)) {
+        fragment(position, p, s);
+      }
+    }
+  }
+
+  // M4. Such frames have counts alone and one sample a pixel.
+  void rasterize_square(int x, int y) {
+    const PixelSquare square(triangle_, x, y, statistics_);
+    if (draw_.conservative == Conservative::over ? square.touched() : square.inside()) {
+      ++statistics_.covered_samples;
+      if (!target_.count.empty()) ++target_.count[first_sample(x, y)];
     }
   }
 
@@ -164,7 +207,9 @@ class DrawRenderer {
   void fragment(std::uint32_t position, SamplePosition p, std::size_t s) {
     float z = 0;
     if (winner_ != nullptr || draw_.depth_mode == DepthMode::clip) {
-      if (!triangle_.depth(p, draw_.depth_mode, &z, statistics_)) return;
+      const bool kept = draw_.grid ? snapped_.depth(p, draw_.depth_mode, &z, statistics_)
+                                   : triangle_.depth(p, draw_.depth_mode, &z, statistics_);
+      if (!kept) return;
     }
     if (!target_.count.empty()) ++target_.count[s];
     if (winner_ == nullptr || !passes(position, z, s)) return;
@@ -184,22 +229,33 @@ class DrawRenderer {
   SamplePosition shading_position(double x, double y) {
     const SamplePosition centre{x + 0.5, y + 0.5};
     if (pattern_.count == 1) return centre;
-    if (target_.attribute_location == AttributeLocation::centre ? triangle_.plane_in_front(centre)
-                                                                : triangle_.covers(centre, shift_, unused_)) {
-      return centre;
-    }
+    if (target_.attribute_location == AttributeLocation::centre && has_values(centre)) return centre;
+    if (covers(centre)) return centre;
     for (int n = 0; n < pattern_.count; ++n) {
       const SamplePosition p{x + pattern_.offset[n].x, y + pattern_.offset[n].y};
-      if (triangle_.covers(p, shift_, unused_)) return p;
+      if (covers(p)) return p;
     }
     return centre;  // not reached: the triangle is seen at a sample of this pixel
+  }
+
+  bool covers(SamplePosition p) {
+    return draw_.grid ? snapped_.winding(p, shift_) != 0 : triangle_.covers(p, shift_, unused_);
+  }
+
+  bool has_values(SamplePosition p) {
+    return draw_.grid ? snapped_.has_weights(p, unused_) : triangle_.plane_in_front(p);
+  }
+
+  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation) {
+    return draw_.grid ? snapped_.attribute(p, u, interpolation, statistics_)
+                      : triangle_.attribute(p, u, interpolation, statistics_);
   }
 
   void shade_sample(std::uint32_t position, SamplePosition p, std::size_t s) {
     if (!target_.barycentrics.empty()) {
       for (std::size_t i = 0; i < 3; ++i) {
         const float unit[3] = {i == 0 ? 1.0f : 0.0f, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f};
-        target_.barycentrics[3 * s + i] = triangle_.attribute(p, unit, Interpolation::perspective, statistics_);
+        target_.barycentrics[3 * s + i] = attribute(p, unit, Interpolation::perspective);
       }
     }
     for (std::size_t k = 0; k < target_.attributes.size(); ++k) {
@@ -210,7 +266,7 @@ class DrawRenderer {
       for (std::size_t c = 0; c < out.components; ++c) {
         float u[3];
         for (std::size_t i = 0; i < 3; ++i) u[i] = in.values[draw_.indices[std::size_t{3} * position + i] * stride + c];
-        out.values[s * out.components + c] = triangle_.attribute(p, u, in.interpolation, statistics_);
+        out.values[s * out.components + c] = attribute(p, u, in.interpolation);
       }
     }
   }
@@ -236,7 +292,8 @@ class DrawRenderer {
   Statistics unused_;  // for decisions made a second time
   SamplePattern pattern_;
   TieShift shift_;
-  Triangle triangle_;
+  Triangle triangle_;        // what was set up last, without Grid
+  SnappedTriangle snapped_;  // and with Grid
 };
 
 // The empty image (V1), without depth.

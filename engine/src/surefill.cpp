@@ -18,14 +18,6 @@ constexpr SampleLocation kLocations8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 
 constexpr SampleLocation kLocations16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
                                            {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
 
-Status unsupported_modes(std::span<const Draw> draws) {
-  for (const Draw& draw : draws) {
-    if (draw.grid) return Status::unsupported_grid;
-    if (draw.conservative != Conservative::none) return Status::unsupported_conservative;
-  }
-  return Status::ok;
-}
-
 Status draw(const Target& target, std::span<const Draw> draws, const Options& options, Statistics& statistics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
   if (options.path == Path::automatic && fast::supports(target, draws)) {
@@ -59,7 +51,6 @@ Status render(const Target& target, std::span<const Draw> draws, Statistics* sta
   if (options.threads < 1 || options.threads > kMaxThreads) return Status::options_threads;
   if (options.path > Path::reference) return Status::options_path;
   if (const Status status = validate(target, draws); status != Status::ok) return status;
-  if (const Status status = unsupported_modes(draws); status != Status::ok) return status;
   const FloatEnvironment environment;
   Statistics own;
   const Status status = draw(target, draws, options, own);

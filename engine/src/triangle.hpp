@@ -38,6 +38,7 @@ inline Approximation quotient(Approximation n, Approximation m) {
 
 class Triangle {
  public:
+  using EdgeSet = unsigned;  // bit i: edge i
   // False if D = 0 (C1). Vertices are finite (B1).
   bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, Statistics& statistics) {
     vertex_[0] = v0, vertex_[1] = v1, vertex_[2] = v2;
@@ -49,6 +50,9 @@ class Triangle {
 
   // The sign of D (F1).
   int determinant() const { return determinant_sign_; }
+
+  const Vertex& vertex(int i) const { return vertex_[i]; }
+  const EdgeFunction& edge(int i) const { return edge_[i]; }  // from vertex i + 1 to vertex i + 2, modulo 3
 
   // C2 and C3.
   bool covers(SamplePosition p, TieShift shift, Statistics& statistics) const {
@@ -62,24 +66,47 @@ class Triangle {
 
   // Depth at p as I4 stores it; false if depth clipping removes the fragment (I5).
   bool depth(SamplePosition p, DepthMode mode, float* stored, Statistics& statistics) {
-    const double z[3] = {vertex_[0].z, vertex_[1].z, vertex_[2].z};
-    Approximation e[3];
-    evaluate_edges(p, e);
-    know_determinant();
-    const Approximation d{determinant_estimate_, std::fabs(determinant_estimate_) * 0x1p-50};
-    const Approximation q = quotient(weighted_sum(z, e), d);
+    const Approximation q = approximate_depth(p);
     if (mode == DepthMode::clip) {
       const double low = q.value - q.error, high = q.value + q.error;
       if (high < 0 || low > 1) {
         ++statistics.values_by_filter;
         return false;
       }
-      if (!(low > 0 && high < 1) && !inside_unit_range(exact_weighted_sum(z, p), statistics)) return false;
+      if (!(low > 0 && high < 1) && !inside_unit_range(exact_depth_numerator(p), statistics)) return false;
     }
-    *stored = rounded(
-        q, [&] { return round_quotient(exact_weighted_sum(z, p), determinant_); }, statistics);
+    *stored = rounded_depth(p, q, statistics);
     if (mode == DepthMode::clamp) *stored = *stored < 0 ? 0.0f : *stored > 1 ? 1.0f : *stored;  // rounding is monotonic
     return true;
+  }
+
+  // The depth at p (I1), whether or not the triangle covers p, as I4 rounds it. D is not 0.
+  float rounded_depth(SamplePosition p, Statistics& statistics) {
+    return rounded_depth(p, approximate_depth(p), statistics);
+  }
+
+  // The sign of z(p) - bound, exactly, for a bound of 0 or 1. D is not 0.
+  int compare_depth(SamplePosition p, double bound, Statistics& statistics) {
+    const Approximation q = approximate_depth(p);
+    const bool above = q.value - q.error > bound, below = q.value + q.error < bound;  // rounding is monotonic
+    if (above || below) {
+      ++statistics.values_by_filter;
+      return above ? 1 : -1;
+    }
+    ++statistics.values_by_expansion;
+    return minus_multiple_of_determinant(exact_depth_numerator(p), bound).sign() * determinant_sign_;
+  }
+
+  // Z_0 E_0 + Z_1 E_1 + Z_2 E_2 at p, exactly: the depth there is this over D. p may also be a corner of the guard
+  // band of G1: no bound is involved.
+  Expansion<60> exact_depth_numerator(SamplePosition p) const {
+    return exact_weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, p);
+  }
+
+  // D itself.
+  const Expansion<12>& exact_determinant_value() {
+    know_determinant();
+    return determinant_;
   }
 
   // Is the sum of the E_i of D's sign at p? (M1: then p is seen in the triangle's plane in front of the eye.)
@@ -94,33 +121,97 @@ class Triangle {
   // An attribute at p as I4 stores it, from its values at the three vertices. For perspective, the sum of the E_i is
   // not 0 at p: it is not at a covered sample, nor where plane_in_front().
   float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Statistics& statistics) {
-    if (interpolation == Interpolation::flat) return u[0] + 0.0f;
-    Approximation e[3];
-    evaluate_edges(p, e);
+    if (interpolation == Interpolation::flat) return value_of_vertex_0(u);
     if (interpolation == Interpolation::perspective) {
-      const double w[3] = {u[0], u[1], u[2]};
-      const Approximation q = quotient(weighted_sum(w, e), weighted_sum({1, 1, 1}, e));
-      const auto exact = [&] { return round_quotient(exact_weighted_sum(w, p), exact_weighted_sum({1, 1, 1}, p)); };
-      return rounded(q, exact, statistics);
+      return weighted_mean({u[0], u[1], u[2]}, {1, 1, 1}, p, kAllEdges, statistics);
     }
-    know_determinant();
     const double w[3] = {static_cast<double>(u[0]) * vertex_[0].w, static_cast<double>(u[1]) * vertex_[1].w,
                          static_cast<double>(u[2]) * vertex_[2].w};  // 48 bits, exact
-    const Approximation d{determinant_estimate_, std::fabs(determinant_estimate_) * 0x1p-50};
-    const Approximation q = quotient(weighted_sum(w, e), d);
+    Approximation e[3];
+    evaluate_edges(p, e);
+    const Approximation q = quotient(weighted_sum(w, e), approximate_determinant());
     return rounded(
         q, [&] { return round_quotient(exact_weighted_sum(w, p), determinant_); }, statistics);
   }
 
- private:
-  void evaluate_edges(SamplePosition p, Approximation (&e)[3]) const {
-    for (int i = 0; i < 3; ++i) e[i].value = edge_[i].value(p, &e[i].error);
+  // The edges whose E_i counts at p under Grid (G2): it has the sign of D and is not 0. None if D = 0.
+  EdgeSet right_edges(SamplePosition p, Statistics& statistics) const {
+    EdgeSet set = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (determinant_sign_ != 0 && edge_[i].sign(p, statistics) == determinant_sign_) set |= 1u << i;
+    }
+    return set;
   }
 
-  Expansion<60> exact_weighted_sum(const double (&w)[3], SamplePosition p) const {
+  // An attribute at p as G2 has it: from the E_i that count, and the value of vertex 0 where their sum is 0.
+  float attribute_of_right_edges(SamplePosition p, const float (&u)[3], Interpolation interpolation,
+                                 Statistics& statistics) const {
+    const EdgeSet set = right_edges(p, statistics);
+    if (interpolation == Interpolation::flat || set == 0) return value_of_vertex_0(u);
+    if (interpolation == Interpolation::perspective) {
+      return weighted_mean({u[0], u[1], u[2]}, {1, 1, 1}, p, set, statistics);
+    }
+    const double w[3] = {vertex_[0].w, vertex_[1].w, vertex_[2].w};
+    if (weighted_sum_is_zero(w, p, set)) return value_of_vertex_0(u);
+    return weighted_mean({u[0] * w[0], u[1] * w[1], u[2] * w[2]}, w, p, set, statistics);  // 48 bits, exact
+  }
+
+ private:
+  static constexpr EdgeSet kAllEdges = 7;
+
+  static float value_of_vertex_0(const float (&u)[3]) {
+    return u[0] + 0.0f;  // -0 becomes +0 (I4)
+  }
+
+  // The E_i at p; 0 for edges outside the set.
+  void evaluate_edges(SamplePosition p, Approximation (&e)[3], EdgeSet set = kAllEdges) const {
+    for (int i = 0; i < 3; ++i) {
+      e[i] = {0, 0};
+      if ((set >> i & 1u) != 0) e[i].value = edge_[i].value(p, &e[i].error);
+    }
+  }
+
+  Expansion<60> exact_weighted_sum(const double (&w)[3], SamplePosition p, EdgeSet set = kAllEdges) const {
     Expansion<60> sum;
-    for (int i = 0; i < 3; ++i) sum.add_scaled(edge_[i].exact_value(p), w[i]);
+    for (int i = 0; i < 3; ++i) {
+      if ((set >> i & 1u) != 0) sum.add_scaled(edge_[i].exact_value(p), w[i]);
+    }
     return sum;
+  }
+
+  bool weighted_sum_is_zero(const double (&w)[3], SamplePosition p, EdgeSet set) const {
+    Approximation e[3];
+    evaluate_edges(p, e, set);
+    const Approximation sum = weighted_sum(w, e);
+    return !(std::fabs(sum.value) > sum.error) && exact_weighted_sum(w, p, set).sign() == 0;
+  }
+
+  // The sum of numerator[i] E_i over that of denominator[i] E_i, as I4 stores it. The latter is not 0.
+  float weighted_mean(const double (&numerator)[3], const double (&denominator)[3], SamplePosition p, EdgeSet set,
+                      Statistics& statistics) const {
+    Approximation e[3];
+    evaluate_edges(p, e, set);
+    const Approximation q = quotient(weighted_sum(numerator, e), weighted_sum(denominator, e));
+    const auto exact = [&] {
+      return round_quotient(exact_weighted_sum(numerator, p, set), exact_weighted_sum(denominator, p, set));
+    };
+    return rounded(q, exact, statistics);
+  }
+
+  Approximation approximate_determinant() {
+    know_determinant();
+    return {determinant_estimate_, std::fabs(determinant_estimate_) * 0x1p-50};
+  }
+
+  Approximation approximate_depth(SamplePosition p) {
+    Approximation e[3];
+    evaluate_edges(p, e);
+    return quotient(weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, e), approximate_determinant());
+  }
+
+  float rounded_depth(SamplePosition p, Approximation q, Statistics& statistics) {
+    return rounded(
+        q, [&] { return round_quotient(exact_depth_numerator(p), exact_determinant_value()); }, statistics);
   }
 
   // D itself is needed for values only; once per triangle.
@@ -135,10 +226,15 @@ class Triangle {
   bool inside_unit_range(const Expansion<60>& numerator, Statistics& statistics) const {
     ++statistics.values_by_expansion;
     if (numerator.sign() * determinant_sign_ < 0) return false;
-    Expansion<72> above_one;
-    for (int i = 0; i < numerator.size(); ++i) above_one.add(numerator.term(i));
-    for (int i = 0; i < determinant_.size(); ++i) above_one.add(-determinant_.term(i));
-    return above_one.sign() * determinant_sign_ <= 0;
+    return minus_multiple_of_determinant(numerator, 1).sign() * determinant_sign_ <= 0;
+  }
+
+  // numerator - bound D for a bound of 0 or 1.
+  Expansion<72> minus_multiple_of_determinant(const Expansion<60>& numerator, double bound) const {
+    Expansion<72> rest;
+    for (int i = 0; i < numerator.size(); ++i) rest.add(numerator.term(i));
+    for (int i = 0; i < determinant_.size(); ++i) rest.add(-bound * determinant_.term(i));
+    return rest;
   }
 
   // The float32 of I4: by the filter if it can tell, else by `exact`.

@@ -1,0 +1,384 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/decode.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace surefill::fuzz {
+namespace {
+
+using corpus::Scene;
+using corpus::SceneAttribute;
+using corpus::SceneDraw;
+using corpus::SceneTriangle;
+using corpus::SceneVertex;
+
+class ByteWriter {
+ public:
+  void byte(std::uint32_t value) { bytes_.push_back(static_cast<std::uint8_t>(value)); }
+  void word(std::uint32_t value) {
+    for (int shift = 0; shift < 32; shift += 8) byte((value >> shift) & 0xFFu);
+  }
+  void real(float value) { word(std::bit_cast<std::uint32_t>(value)); }
+  Bytes take() { return std::move(bytes_); }
+
+ private:
+  Bytes bytes_;
+};
+
+// An enumerator or number in a bit field; values past the last one mean `rest`.
+template <typename Enum>
+Enum field(std::uint32_t byte, int shift, std::uint32_t count, Enum rest = Enum{}) {
+  const std::uint32_t mask = std::bit_ceil(count) - 1;
+  const std::uint32_t value = (byte >> shift) & mask;
+  return value < count ? static_cast<Enum>(value) : rest;
+}
+
+template <typename Enum>
+std::uint32_t bits(Enum value, int shift) {
+  return static_cast<std::uint32_t>(value) << shift;
+}
+
+// Size and samples.
+void set_size(Scene& scene, std::uint32_t size, std::uint32_t log2_samples) {
+  const auto side = static_cast<std::uint32_t>(kMaxSide[log2_samples]);
+  scene.samples = 1 << log2_samples;
+  scene.width = static_cast<int>(1 + (size & 15u) % side);
+  scene.height = static_cast<int>(1 + (size >> 4) % side);
+}
+
+bool size_fits(const Scene& scene) {
+  if (scene.samples < 1 || scene.samples > 16 || !std::has_single_bit(static_cast<unsigned>(scene.samples)))
+    return false;
+  const int side = kMaxSide[std::countr_zero(static_cast<unsigned>(scene.samples))];
+  return scene.width >= 1 && scene.width <= side && scene.height >= 1 && scene.height <= side;
+}
+
+std::uint32_t size_byte(const Scene& scene) {
+  return static_cast<std::uint32_t>(scene.width - 1) | static_cast<std::uint32_t>(scene.height - 1) << 4;
+}
+
+std::uint32_t log2_samples(const Scene& scene) {
+  return static_cast<std::uint32_t>(std::countr_zero(static_cast<unsigned>(scene.samples)));
+}
+
+// Fill rule, front face, culling and depth mode.
+void set_state(SceneDraw& draw, std::uint32_t byte) {
+  draw.fill_rule = field<FillRule>(byte, 0, 8);
+  draw.front_face = field<FrontFace>(byte, 3, 2);
+  draw.cull = field<Cull>(byte, 4, 3);
+  draw.depth_mode = field<DepthMode>(byte, 6, 3);
+}
+
+std::uint32_t state_byte(const SceneDraw& draw) {
+  return bits(draw.fill_rule, 0) | bits(draw.front_face, 3) | bits(draw.cull, 4) | bits(draw.depth_mode, 6);
+}
+
+std::string attribute_name(std::size_t k) {
+  return {'a', static_cast<char>('0' + k)};
+}  // k < 10
+
+std::size_t component_total(const Scene& scene) {
+  std::size_t total = 0;
+  for (const SceneAttribute& attribute : scene.attributes) total += attribute.components;
+  return total;
+}
+
+// Viewport numbers are finite: an infinity or a NaN loses the top bit of its exponent.
+float finite(float value) {
+  return std::isfinite(value) ? value : std::bit_cast<float>(std::bit_cast<std::uint32_t>(value) & ~0x40000000u);
+}
+
+// Scissor edges: small numbers, and the two ends of int.
+constexpr int kLargestEdge = 126;
+int edge_of(std::uint8_t byte) {
+  const int value = static_cast<std::int8_t>(byte);
+  if (value > kLargestEdge) return std::numeric_limits<int>::max();
+  return value < -kLargestEdge ? std::numeric_limits<int>::min() : value;
+}
+
+std::optional<std::uint32_t> edge_byte(int edge) {
+  if (edge == std::numeric_limits<int>::max()) return 0x7Fu;
+  if (edge == std::numeric_limits<int>::min()) return 0x80u;
+  if (edge < -kLargestEdge || edge > kLargestEdge) return std::nullopt;
+  return static_cast<std::uint8_t>(edge);
+}
+
+// The vertices in turn, or none: a box of clip coordinates, or of more than eight vertices, is not that of the draw.
+std::optional<std::array<Vertex, 8>> box_of(const SceneDraw& draw) {
+  std::array<Vertex, 8> box{};
+  if (draw.viewport || draw.vertices.empty() || draw.vertices.size() > box.size()) return std::nullopt;
+  for (std::size_t i = 0; i < box.size(); ++i) {
+    const SceneVertex& v = draw.vertices[i % draw.vertices.size()];
+    box[i] = {v.x, v.y, v.z, v.w};
+  }
+  return box;
+}
+
+// What a draw has, in its first two bytes.
+enum DrawFlag : std::uint32_t {
+  kHasViewport = 1,
+  kClipDepthBelow = 2,  // -1..1
+  kClipYDown = 4,
+  kHasScissor = 8,
+  kHasGrid = 16,
+  kHasCullingBox = 32,
+  kHasIdentifiers = 64,
+  kHasFirstIndex = 128,
+};
+
+SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
+  SceneDraw draw;
+  const std::uint32_t flags = in.byte();
+  set_state(draw, in.byte());
+  const std::uint32_t more = in.byte();  // bit 0: depth write off, bits 1-2: conservative
+  draw.depth_write = (more & 1u) == 0;
+  if (samples == 1) draw.conservative = field<Conservative>(more, 1, 3);
+  if (draw.conservative != Conservative::none) draw.depth_mode = DepthMode::none;  // M4
+  draw.vertices.resize(in.below(kMaxVertices + 1));
+  std::uint32_t triangles = in.below(kMaxTriangles + 1);
+  if (draw.vertices.empty()) triangles = 0;
+
+  if ((flags & kHasViewport) != 0) {
+    Viewport& viewport = draw.viewport.emplace();
+    for (float* number :
+         {&viewport.x, &viewport.y, &viewport.width, &viewport.height, &viewport.near_depth, &viewport.far_depth}) {
+      *number = finite(in.real());
+    }
+    viewport.clip_depth = (flags & kClipDepthBelow) != 0 ? ClipDepth::minus_one_to_one : ClipDepth::zero_to_one;
+    viewport.clip_y = (flags & kClipYDown) != 0 ? ClipY::down : ClipY::up;
+  }
+  if ((flags & kHasScissor) != 0) {
+    Scissor& scissor = draw.scissor.emplace();
+    for (int* edge : {&scissor.x0, &scissor.y0, &scissor.x1, &scissor.y1}) *edge = edge_of(in.byte());
+  }
+  if ((flags & kHasGrid) != 0 && draw.conservative == Conservative::none) {
+    Grid& grid = draw.grid.emplace();
+    grid.bits = static_cast<int>(in.below(13));
+    const std::uint32_t offsets = in.byte();
+    grid.offset_x = static_cast<int>(offsets & 15u);
+    grid.offset_y = static_cast<int>(offsets >> 4);
+    grid.rounding = static_cast<GridRounding>(in.below(3));
+  }
+  if ((flags & kHasFirstIndex) != 0) draw.first_index = std::min(in.word(), kNoTriangle - triangles);
+  for (SceneVertex& vertex : draw.vertices) {
+    for (float* number : {&vertex.x, &vertex.y, &vertex.z, &vertex.w}) *number = in.real();
+    vertex.attributes.resize(components);
+    for (float& value : vertex.attributes) value = in.real();
+  }
+  for (std::uint32_t t = 0; t < triangles; ++t) {
+    SceneTriangle& triangle = draw.triangles.emplace_back();
+    for (std::uint32_t& v : triangle.vertices) v = in.below(static_cast<std::uint32_t>(draw.vertices.size()));
+    if ((flags & kHasIdentifiers) != 0) triangle.identifier = in.word();
+  }
+  if ((flags & kHasCullingBox) != 0) draw.culling_box = box_of(draw);
+  return draw;
+}
+
+bool same_box(const std::array<Vertex, 8>& a, const std::array<Vertex, 8>& b) {
+  const auto same = [](float p, float q) {
+    return std::bit_cast<std::uint32_t>(p) == std::bit_cast<std::uint32_t>(q) || (std::isnan(p) && std::isnan(q));
+  };
+  return std::equal(a.begin(), a.end(), b.begin(), [&](const Vertex& p, const Vertex& q) {
+    return same(p.x, q.x) && same(p.y, q.y) && same(p.z, q.z) && same(p.w, q.w);
+  });
+}
+
+bool draw_fits(const SceneDraw& draw) {
+  if (!draw.points.empty() || !draw.lines.empty()) return false;
+  if (draw.vertices.size() > kMaxVertices || draw.triangles.size() > kMaxTriangles) return false;
+  if (draw.culling_box) {
+    const std::optional<std::array<Vertex, 8>> own = box_of(draw);
+    if (!own || !same_box(*own, *draw.culling_box)) return false;
+  }
+  return true;
+}
+
+bool encode_draw(ByteWriter& out, const SceneDraw& draw) {
+  if (!draw_fits(draw)) return false;
+  const bool identifiers = !draw.triangles.empty() && draw.triangles[0].identifier.has_value();
+  std::uint32_t flags = 0;
+  if (draw.viewport) {
+    flags |= kHasViewport;
+    if (draw.viewport->clip_depth == ClipDepth::minus_one_to_one) flags |= kClipDepthBelow;
+    if (draw.viewport->clip_y == ClipY::down) flags |= kClipYDown;
+  }
+  if (draw.scissor) flags |= kHasScissor;
+  if (draw.grid) flags |= kHasGrid;
+  if (draw.culling_box) flags |= kHasCullingBox;
+  if (identifiers) flags |= kHasIdentifiers;
+  if (draw.first_index) flags |= kHasFirstIndex;
+  out.byte(flags);
+  out.byte(state_byte(draw));
+  out.byte((draw.depth_write ? 0u : 1u) | bits(draw.conservative, 1));
+  out.byte(static_cast<std::uint32_t>(draw.vertices.size()));
+  out.byte(static_cast<std::uint32_t>(draw.triangles.size()));
+  if (draw.viewport) {
+    const Viewport& v = *draw.viewport;
+    for (const float number : {v.x, v.y, v.width, v.height, v.near_depth, v.far_depth}) out.real(number);
+  }
+  if (draw.scissor) {
+    for (const int edge : {draw.scissor->x0, draw.scissor->y0, draw.scissor->x1, draw.scissor->y1}) {
+      const std::optional<std::uint32_t> byte = edge_byte(edge);
+      if (!byte) return false;
+      out.byte(*byte);
+    }
+  }
+  if (draw.grid) {
+    out.byte(static_cast<std::uint32_t>(draw.grid->bits));
+    out.byte(static_cast<std::uint32_t>(draw.grid->offset_x) | static_cast<std::uint32_t>(draw.grid->offset_y) << 4);
+    out.byte(bits(draw.grid->rounding, 0));
+  }
+  if (draw.first_index) out.word(*draw.first_index);
+  for (const SceneVertex& vertex : draw.vertices) {
+    for (const float number : {vertex.x, vertex.y, vertex.z, vertex.w}) out.real(number);
+    for (const float value : vertex.attributes) out.real(value);
+  }
+  for (const SceneTriangle& triangle : draw.triangles) {
+    for (const std::uint32_t v : triangle.vertices) out.byte(v);
+    if (identifiers) out.word(triangle.identifier.value_or(0));
+  }
+  return true;
+}
+
+}  // namespace
+
+std::uint32_t ByteReader::word() {
+  std::uint32_t value = 0;
+  for (int shift = 0; shift < 32; shift += 8) value |= static_cast<std::uint32_t>(byte()) << shift;
+  return value;
+}
+
+float ByteReader::real() {
+  return std::bit_cast<float>(word());
+}
+
+Scene decode_triangle(std::span<const std::uint8_t> bytes) {
+  ByteReader in(bytes);
+  Scene scene;
+  SceneDraw& draw = scene.draws.emplace_back();
+  draw.vertices.resize(3);
+  draw.triangles.push_back({{0, 1, 2}, {}});
+  for (SceneVertex& vertex : draw.vertices) {
+    for (float* number : {&vertex.x, &vertex.y, &vertex.z, &vertex.w}) *number = in.real();
+  }
+  const std::uint32_t size = in.byte();
+  set_state(draw, in.byte());
+  const std::uint32_t frame = in.byte();
+  set_size(scene, size, (frame & 7u) % 5u);
+  scene.depth_test = field<DepthTest>(frame, 3, 2);
+  scene.attribute_location = field<AttributeLocation>(frame, 4, 2);
+  const std::uint32_t interpolation = (frame >> 5) & 3u;
+  if (interpolation < 3) {
+    scene.attributes.push_back({attribute_name(0), 1, static_cast<Interpolation>(interpolation)});
+    for (SceneVertex& vertex : draw.vertices) vertex.attributes.push_back(in.real());
+  }
+  return scene;
+}
+
+std::optional<Bytes> encode_triangle(const Scene& scene) {
+  if (!size_fits(scene) || scene.draws.size() != 1 || !scene.initial_depth.empty()) return std::nullopt;
+  if (scene.attributes.size() > 1 || component_total(scene) > 1) return std::nullopt;
+  const SceneDraw& draw = scene.draws[0];
+  if (draw.vertices.size() != 3 || draw.triangles.size() != 1 || !draw.points.empty() || !draw.lines.empty() ||
+      draw.triangles[0].vertices != std::array<std::uint32_t, 3>{0, 1, 2} || draw.triangles[0].identifier ||
+      draw.viewport || draw.first_index || !draw.depth_write || draw.conservative != Conservative::none ||
+      draw.scissor || draw.grid || draw.culling_box) {
+    return std::nullopt;
+  }
+  ByteWriter out;
+  for (const SceneVertex& vertex : draw.vertices) {
+    for (const float number : {vertex.x, vertex.y, vertex.z, vertex.w}) out.real(number);
+  }
+  const std::uint32_t interpolation =
+      scene.attributes.empty() ? 3u : static_cast<std::uint32_t>(scene.attributes[0].interpolation);
+  out.byte(size_byte(scene));
+  out.byte(state_byte(draw));
+  out.byte(log2_samples(scene) | bits(scene.depth_test, 3) | bits(scene.attribute_location, 4) | interpolation << 5);
+  for (const SceneVertex& vertex : draw.vertices) out.real(scene.attributes.empty() ? 0.0f : vertex.attributes[0]);
+  return out.take();
+}
+
+Scene decode_scene(std::span<const std::uint8_t> bytes) {
+  ByteReader in(bytes);
+  Scene scene;
+  const std::uint32_t size = in.byte();
+  const std::uint32_t frame =
+      in.byte();  // bits 0-2 samples, 3 depth test, 4 location, 5-6 initial depth: none, one, all
+  set_size(scene, size, (frame & 7u) % 5u);
+  scene.depth_test = field<DepthTest>(frame, 3, 2);
+  scene.attribute_location = field<AttributeLocation>(frame, 4, 2);
+  const std::size_t total = static_cast<std::size_t>(scene.width * scene.height * scene.samples);
+  const std::size_t depths[] = {0, 1, total, 0};
+  scene.initial_depth.resize(depths[(frame >> 5) & 3u]);
+  const std::uint32_t counts = in.byte();  // bits 0-1 draws - 1, bits 2-4 attributes modulo 5
+  scene.attributes.resize(((counts >> 2) & 7u) % (kMaxSceneAttributes + 1));
+  for (std::size_t k = 0; k < scene.attributes.size(); ++k) {
+    const std::uint32_t form = in.byte();  // bits 0-1 components - 1, bits 2-3 interpolation
+    scene.attributes[k] = {attribute_name(k), 1 + (form & 3u), field<Interpolation>(form, 2, 3)};
+  }
+  for (float& depth : scene.initial_depth) depth = in.real();
+  const std::size_t components = component_total(scene);
+  for (std::uint32_t d = 0; d <= (counts & 3u); ++d) scene.draws.push_back(decode_draw(in, components, scene.samples));
+  return scene;
+}
+
+std::optional<Bytes> encode_scene(const Scene& scene) {
+  if (!size_fits(scene) || scene.draws.empty() || scene.draws.size() > kMaxDraws ||
+      scene.attributes.size() > kMaxSceneAttributes) {
+    return std::nullopt;
+  }
+  ByteWriter out;
+  const std::uint32_t depths = scene.initial_depth.empty() ? 0u : scene.initial_depth.size() == 1 ? 1u : 2u;
+  out.byte(size_byte(scene));
+  out.byte(log2_samples(scene) | bits(scene.depth_test, 3) | bits(scene.attribute_location, 4) | depths << 5);
+  out.byte(static_cast<std::uint32_t>(scene.draws.size() - 1) | static_cast<std::uint32_t>(scene.attributes.size())
+                                                                    << 2);
+  for (const SceneAttribute& attribute : scene.attributes) {
+    out.byte((attribute.components - 1) | bits(attribute.interpolation, 2));
+  }
+  for (const float depth : scene.initial_depth) out.real(depth);
+  for (const SceneDraw& draw : scene.draws) {
+    if (!encode_draw(out, draw)) return std::nullopt;
+  }
+  return out.take();
+}
+
+std::vector<Scene> single_triangles(const Scene& scene) {
+  std::vector<Scene> singles;
+  if (scene.samples < 1 || scene.samples > 16) return singles;
+  const int side = kMaxSide[log2_samples(scene)];
+  for (const SceneDraw& draw : scene.draws) {
+    for (const SceneTriangle& triangle : draw.triangles) {
+      Scene& single = singles.emplace_back();
+      single.width = std::min(scene.width, side);
+      single.height = std::min(scene.height, side);
+      single.samples = scene.samples;
+      single.depth_test = scene.depth_test;
+      single.attribute_location = scene.attribute_location;
+      if (!scene.attributes.empty())
+        single.attributes.push_back({attribute_name(0), 1, scene.attributes[0].interpolation});
+      SceneDraw& own = single.draws.emplace_back();
+      own.fill_rule = draw.fill_rule;
+      own.front_face = draw.front_face;
+      own.cull = draw.cull;
+      own.depth_mode = draw.depth_mode;
+      own.triangles.push_back({{0, 1, 2}, {}});
+      for (const std::uint32_t v : triangle.vertices) {
+        const SceneVertex& from = draw.vertices[v];
+        Vertex pixel{from.x, from.y, from.z, from.w};
+        const ClipVertex clip{from.x, from.y, from.z, from.w};
+        if (draw.viewport && to_pixel(*draw.viewport, {&clip, 1}, {&pixel, 1}) != Status::ok) pixel = {};
+        SceneVertex& to = own.vertices.emplace_back(SceneVertex{pixel.x, pixel.y, pixel.z, pixel.w, {}});
+        if (!scene.attributes.empty()) to.attributes.push_back(from.attributes[0]);
+      }
+    }
+  }
+  return singles;
+}
+
+}  // namespace surefill::fuzz

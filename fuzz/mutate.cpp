@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fuzz/mutate.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstring>
+#include <tuple>
+#include <utility>
+
+namespace surefill::fuzz {
+namespace {
+
+using corpus::Scene;
+using corpus::SceneDraw;
+using corpus::SceneTriangle;
+using corpus::SceneVertex;
+using properties::Random;
+
+// Beyond float32 is an infinity, which is a case of its own (B1).
+float rounded(double value) {
+  constexpr double kBeyond = 0x1p128;
+  return static_cast<float>(std::clamp(value, -kBeyond, kBeyond));
+}
+
+SceneVertex& any_vertex(SceneDraw& draw, Random& random) {
+  return draw.vertices[random.below(static_cast<std::uint32_t>(draw.vertices.size()))];
+}
+
+// X, Y or W; Z one time in eight.
+float& any_coordinate(SceneVertex& v, Random& random) {
+  if (random.one_in(8)) return v.z;
+  float* const coordinates[] = {&v.x, &v.y, &v.w};
+  return *coordinates[random.below(3)];
+}
+
+struct Point {
+  double x, y;
+};
+
+Point any_sample(const Scene& scene, Random& random) {
+  const SampleLocation location = sample_location(scene.samples, random.between(0, scene.samples - 1));
+  return {random.between(0, scene.width - 1) + location.x / 16.0,
+          random.between(0, scene.height - 1) + location.y / 16.0};
+}
+
+double any_power_of_two(Random& random, int range) {
+  return std::ldexp(1.0, random.between(-range, range));
+}
+
+// Small numbers whose products with sample coordinates are exact in float32.
+double any_small_factor(Random& random) {
+  constexpr double kFactors[] = {1, 2, 3, 4, 0.5, 0.25, 0.75, 1.5};
+  return kFactors[random.below(8)] * (random.one_in(4) ? -1 : 1);
+}
+
+// Several mutations work on a triangle's own vertices. Vertices 0, 1, 2 where the draw has no triangle.
+struct Corners {
+  std::size_t i, j, k;
+};
+
+Corners any_corners(const SceneDraw& draw, Random& random) {
+  const auto count = draw.vertices.size();
+  Corners c{0, 1 % count, 2 % count};
+  if (!draw.triangles.empty()) {
+    const auto& v = draw.triangles[random.below(static_cast<std::uint32_t>(draw.triangles.size()))].vertices;
+    c = {v[0], v[1], v[2]};
+  }
+  for (std::uint32_t turns = random.below(3); turns > 0; --turns) c = {c.j, c.k, c.i};
+  return c;
+}
+
+void vertex_on_sample(Scene& scene, SceneDraw& draw, Random& random) {
+  SceneVertex& v = any_vertex(draw, random);
+  const Point p = any_sample(scene, random);
+  if (random.one_in(2)) v.w = random.one_in(2) ? 1.0f : rounded(any_power_of_two(random, 6) * any_small_factor(random));
+  v.x = rounded(p.x * static_cast<double>(v.w));
+  v.y = rounded(p.y * static_cast<double>(v.w));
+}
+
+// m_k = a p + b m_j: the edge j k passes through the sample p = (x, y, 1), exactly where nothing is rounded.
+void edge_through_sample(Scene& scene, SceneDraw& draw, Random& random) {
+  const Corners c = any_corners(draw, random);
+  const Point p = any_sample(scene, random);
+  const double a = any_small_factor(random), b = any_small_factor(random);
+  const SceneVertex& from = draw.vertices[c.j];
+  SceneVertex& to = draw.vertices[c.k];
+  to.x = rounded(a * p.x + b * static_cast<double>(from.x));
+  to.y = rounded(a * p.y + b * static_cast<double>(from.y));
+  to.w = rounded(a + b * static_cast<double>(from.w));
+}
+
+void nudge(Scene&, SceneDraw& draw, Random& random) {
+  float& value = any_coordinate(any_vertex(draw, random), random);
+  value = std::nextafter(value, random.one_in(2) ? HUGE_VALF : -HUGE_VALF);
+}
+
+void make_collinear(Scene&, SceneDraw& draw, Random& random) {
+  const Corners c = any_corners(draw, random);
+  const double a = any_small_factor(random), b = any_small_factor(random);
+  const SceneVertex p = draw.vertices[c.i], q = draw.vertices[c.j];
+  SceneVertex& r = draw.vertices[c.k];
+  const auto blend = [&](float u, float v) { return rounded(a * static_cast<double>(u) + b * static_cast<double>(v)); };
+  r.x = blend(p.x, q.x);
+  r.y = blend(p.y, q.y);
+  r.w = blend(p.w, q.w);
+  if (random.one_in(4)) r.z = blend(p.z, q.z);
+}
+
+// Two triangles with one edge in common, run through in opposite directions (or, one time in four, in the same). A lone
+// triangle gets two equal vertices instead.
+void share_edge(Scene& scene, SceneDraw& draw, Random& random) {
+  const Corners c = any_corners(draw, random);
+  if (draw.triangles.size() < 2) {
+    if (draw.triangles.empty() && scene.draws.size() == 1) return;
+    SceneVertex& to = draw.vertices[c.k];
+    const SceneVertex& from = draw.vertices[c.i];
+    std::tie(to.x, to.y, to.z, to.w) = std::tie(from.x, from.y, from.z, from.w);
+    return;
+  }
+  SceneTriangle& triangle = draw.triangles[random.below(static_cast<std::uint32_t>(draw.triangles.size()))];
+  const bool same_direction = random.one_in(4);
+  triangle.vertices[0] = static_cast<std::uint32_t>(same_direction ? c.i : c.j);
+  triangle.vertices[1] = static_cast<std::uint32_t>(same_direction ? c.j : c.i);
+}
+
+void change_w(Scene&, SceneDraw& draw, Random& random) {
+  SceneVertex& v = any_vertex(draw, random);
+  switch (random.below(4)) {
+    case 0:
+      v.w = -v.w;
+      break;
+    case 1:
+      v.w = 0;
+      break;
+    case 2:
+      v.w = 1;
+      break;
+    default:  // the other side of the eye (T3)
+      v.x = -v.x, v.y = -v.y, v.z = -v.z, v.w = -v.w;
+  }
+}
+
+// One vertex as a whole (T4), one coordinate, or the whole draw.
+void scale(Scene&, SceneDraw& draw, Random& random) {
+  const double factor = any_power_of_two(random, random.one_in(4) ? 140 : 8);
+  const auto by = [&](float& value) { value = rounded(static_cast<double>(value) * factor); };
+  const auto whole = [&](SceneVertex& v) { by(v.x), by(v.y), by(v.z), by(v.w); };
+  switch (random.below(3)) {
+    case 0:
+      whole(any_vertex(draw, random));
+      break;
+    case 1:
+      by(any_coordinate(any_vertex(draw, random), random));
+      break;
+    default:
+      std::for_each(draw.vertices.begin(), draw.vertices.end(), whole);
+  }
+}
+
+void swap_order(Scene&, SceneDraw& draw, Random& random) {
+  if (random.one_in(2) && draw.triangles.size() > 1) {
+    const auto count = static_cast<std::uint32_t>(draw.triangles.size());
+    std::swap(draw.triangles[random.below(count)], draw.triangles[random.below(count)]);
+    return;
+  }
+  std::swap(any_vertex(draw, random), any_vertex(draw, random));
+}
+
+// A border of a block (8), a tile (64) or the target.
+void align_to_border(Scene& scene, SceneDraw& draw, Random& random) {
+  SceneVertex& v = any_vertex(draw, random);
+  const bool along_x = random.one_in(2);
+  const int borders[] = {8 * random.between(-1, 2), 64 * random.between(-1, 2), along_x ? scene.width : scene.height,
+                         0};
+  const double border = borders[random.below(4)];
+  (along_x ? v.x : v.y) = rounded(border * static_cast<double>(v.w));
+}
+
+void copy_coordinate(Scene&, SceneDraw& draw, Random& random) {
+  SceneVertex &from = any_vertex(draw, random), &to = any_vertex(draw, random);
+  switch (random.below(5)) {
+    case 0:
+      to.x = from.x;
+      break;
+    case 1:
+      to.y = from.y;
+      break;
+    case 2:
+      to.z = from.z;
+      break;
+    case 3:
+      to.w = from.w;
+      break;
+    default:
+      any_coordinate(to, random) = any_coordinate(from, random);
+  }
+}
+
+// Multiples of 1/16: what makes the other coincidences exact.
+void round_to_sixteenths(Scene&, SceneDraw& draw, Random& random) {
+  SceneVertex& v = any_vertex(draw, random);
+  for (float* value : {&v.x, &v.y, &v.w}) *value = std::rint(*value * 16) / 16;
+}
+
+// A plain position near the target, so that a triangle covers something.
+void move_into_view(Scene& scene, SceneDraw& draw, Random& random) {
+  SceneVertex& v = any_vertex(draw, random);
+  v.w = 1;
+  v.x = rounded(std::floor((random.unit() * 1.5 - 0.25) * scene.width * 16) / 16);
+  v.y = rounded(std::floor((random.unit() * 1.5 - 0.25) * scene.height * 16) / 16);
+}
+
+// Depths at which something is decided, and attributes that are constant or nearly so.
+void set_values(Scene&, SceneDraw& draw, Random& random) {
+  SceneVertex& v = any_vertex(draw, random);
+  const float depths[] = {0.0f, v.w, -v.w, v.w / 2, rounded(random.unit()), std::nextafter(v.w, 0.0f)};
+  if (v.attributes.empty() || random.one_in(2)) {
+    v.z = depths[random.below(6)];
+    return;
+  }
+  const SceneVertex& from = any_vertex(draw, random);
+  const std::size_t c = random.below(static_cast<std::uint32_t>(v.attributes.size()));
+  const float value = from.attributes[c];
+  const float values[] = {value, std::nextafter(value, HUGE_VALF), -value, 0.0f, 1.0f, rounded(random.unit() * 256)};
+  v.attributes[c] = values[random.below(6)];
+}
+
+using Mutation = void (*)(Scene&, SceneDraw&, Random&);
+constexpr Mutation kMutations[] = {
+    vertex_on_sample,
+    vertex_on_sample,
+    edge_through_sample,
+    edge_through_sample,
+    nudge,
+    nudge,
+    make_collinear,
+    share_edge,
+    change_w,
+    scale,
+    swap_order,
+    align_to_border,
+    copy_coordinate,
+    copy_coordinate,
+    round_to_sixteenths,
+    move_into_view,
+    move_into_view,
+    set_values,
+};
+
+// A culling box must go on holding the draw (M6): its corners are the vertices in turn.
+void renew_culling_box(SceneDraw& draw) {
+  if (!draw.culling_box) return;
+  for (std::size_t i = 0; i < draw.culling_box->size(); ++i) {
+    const SceneVertex& v = draw.vertices[i % draw.vertices.size()];
+    (*draw.culling_box)[i] = {v.x, v.y, v.z, v.w};
+  }
+}
+
+using Decode = Scene (*)(std::span<const std::uint8_t>);
+using Encode = std::optional<Bytes> (*)(const Scene&);
+
+// `tail`: bytes from this position on are not part of the form.
+std::size_t mutate_bytes(Decode decode, Encode encode, std::size_t tail, std::uint8_t* data, std::size_t size,
+                         std::size_t max_size, unsigned seed) {
+  Random random(seed);
+  if (random.one_in(2)) return LLVMFuzzerMutate(data, size, max_size);
+  Scene scene = decode({data, size});
+  mutate(scene, random);
+  std::optional<Bytes> bytes = encode(scene);
+  if (!bytes) return LLVMFuzzerMutate(data, size, max_size);
+  if (size > tail) bytes->insert(bytes->end(), data + tail, data + size);
+  const std::size_t new_size = std::min(bytes->size(), max_size);
+  std::memcpy(data, bytes->data(), new_size);
+  return new_size;
+}
+
+}  // namespace
+
+void mutate(Scene& scene, Random& random) {
+  for (int rounds = 1 + static_cast<int>(random.below(3)); rounds > 0; --rounds) {
+    SceneDraw& draw = scene.draws[random.below(static_cast<std::uint32_t>(scene.draws.size()))];
+    if (draw.vertices.empty()) continue;
+    kMutations[random.below(std::size(kMutations))](scene, draw, random);
+    renew_culling_box(draw);
+  }
+}
+
+std::size_t mutate_triangle_bytes(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
+  return mutate_bytes(decode_triangle, encode_triangle, kTriangleBytes, data, size, max_size, seed);
+}
+
+std::size_t mutate_scene_bytes(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
+  return mutate_bytes(decode_scene, encode_scene, max_size, data, size, max_size, seed);
+}
+
+}  // namespace surefill::fuzz

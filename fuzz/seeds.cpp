@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Seeds from the corpus: surefill_fuzz_seeds CASES OUT writes OUT/TARGET/* for every target, so that no case is stored
+// twice. A scene is a seed of each target whose form it fits; the generators add a triangle and a scene of each of
+// their categories. Exit 1 if a target would get no seed from the corpus.
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+
+#include "fuzz/decode.hpp"
+#include "properties/generators.hpp"
+
+namespace surefill::fuzz {
+namespace {
+
+namespace fs = std::filesystem;
+
+class SeedWriter {
+ public:
+  explicit SeedWriter(fs::path out) : out_(std::move(out)) {}
+
+  void add(const std::string& target, std::string name, std::string_view bytes) {
+    std::replace(name.begin(), name.end(), '/', '-');
+    fs::create_directories(out_ / target);
+    const fs::path path = out_ / target / name;
+    std::ofstream file(path, std::ios::binary);
+    file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    file.close();
+    if (!file) throw fs::filesystem_error("cannot be written", path, std::make_error_code(std::errc::io_error));
+    ++count_[target];
+  }
+  void add(const std::string& target, const std::string& name, const Bytes& bytes) {
+    add(target, name, std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()));
+  }
+  std::size_t count(const std::string& target) const {
+    const auto found = count_.find(target);
+    return found == count_.end() ? 0 : found->second;
+  }
+
+ private:
+  fs::path out_;
+  std::map<std::string, std::size_t> count_;
+};
+
+// At most this many triangles of one scene; a mesh of hundreds adds little.
+constexpr std::size_t kTrianglesOfScene = 8;
+
+void add_scene(SeedWriter& seeds, const corpus::Scene& scene, const std::string& name) {
+  if (const std::optional<Bytes> bytes = encode_scene(scene)) seeds.add("scene", name, *bytes);
+  const std::vector<corpus::Scene> singles = single_triangles(scene);
+  for (std::size_t t = 0; t < std::min(singles.size(), kTrianglesOfScene); ++t) {
+    if (const std::optional<Bytes> bytes = encode_triangle(singles[t])) {
+      seeds.add("triangle", name + "-" + std::to_string(t), *bytes);
+    }
+  }
+}
+
+void add_generated(SeedWriter& seeds) {
+  for (const properties::Category& category : properties::categories()) {
+    add_scene(seeds, properties::random_scene(category, 1), std::string("generated-") + category.name);
+  }
+}
+
+// Calls with nothing wrong, and then more and more of the bytes that spoil an argument.
+void add_arguments(SeedWriter& seeds) {
+  properties::Random random(1);
+  for (int n = 0; n < 64; ++n) {
+    Bytes bytes(static_cast<std::size_t>(16 + 8 * n));
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.bits());
+    bytes[0] = static_cast<std::uint8_t>(n);
+    seeds.add("arguments", "call-" + std::to_string(n), bytes);
+  }
+}
+
+int write_seeds(const std::string& cases, const fs::path& out) {
+  fs::remove_all(out);
+  SeedWriter seeds(out);
+  for (const std::string& path : corpus::list_corpus(cases)) {
+    const corpus::Scene scene = corpus::read_scene_file(path);
+    const std::string name = fs::relative(path, cases).replace_extension().string();
+    seeds.add("reader", name, corpus::write_scene(scene));
+    add_scene(seeds, scene, name);
+  }
+  for (const char* target : {"triangle", "scene", "reader"}) {
+    if (seeds.count(target) == 0) {
+      std::fprintf(stderr, "surefill_fuzz_seeds: no scene of %s fits the target %s\n", cases.c_str(), target);
+      return 1;
+    }
+  }
+  add_generated(seeds);
+  add_arguments(seeds);
+  for (const char* target : {"triangle", "scene", "reader", "arguments"}) {
+    std::printf("%s: %zu seeds\n", target, seeds.count(target));
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace surefill::fuzz
+
+int main(int argc, char** argv) {
+  if (argc != 3) {
+    std::fprintf(stderr, "usage: surefill_fuzz_seeds CASES OUT\n");
+    return 2;
+  }
+  try {
+    return surefill::fuzz::write_seeds(argv[1], argv[2]);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "surefill_fuzz_seeds: %s\n", error.what());
+    return 1;
+  }
+}

@@ -198,7 +198,6 @@ class DrawRenderer {
   void rasterize_square(int x, int y) {
     const PixelSquare square(triangle_, x, y, statistics_);
     if (draw_.conservative == Conservative::over ? square.touched() : square.inside()) {
-      ++statistics_.covered_samples;
       if (!target_.count.empty()) ++target_.count[first_sample(x, y)];
     }
   }

@@ -192,7 +192,7 @@ struct Statistics {
   std::uint64_t dropped = 0;     // a NaN or an infinity [B1]
   std::uint64_t degenerate = 0;  // D = 0 [C1]
   std::uint64_t culled = 0;      // by facing [F2]
-  std::uint64_t outside = 0;     // not culled, but no sample of the target lies in the triangle's screen box
+  std::uint64_t outside = 0;     // no sample of the target lies in its screen box (the fast path looks at this before D)
   std::uint64_t rasterized = 0;  // the rest
 
   // Signs of edge functions and of D by the rung of the ladder that settled them; on the fast path, of edge functions

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // A scene with draws, attributes and state, engine == oracle, bit for bit: every vertex after its viewport, every
-// output of every sample. A mode that the engine answers with unsupported_* is not compared; any other answer than ok
-// is a finding.
+// output of every sample. Any answer of the engine but ok is a finding.
 #include <bit>
 #include <cmath>
 #include <string>
@@ -16,11 +15,6 @@
 
 namespace surefill::fuzz {
 namespace {
-
-bool unsupported(Status status) {
-  return status == Status::unsupported_samples || status == Status::unsupported_grid ||
-         status == Status::unsupported_conservative;
-}
 
 // The viewport map of a draw (S3), engine == oracle.
 void check_viewport(const corpus::SceneDraw& draw, std::span<const Vertex> actual, const corpus::Scene& scene) {
@@ -50,7 +44,6 @@ void check(const corpus::Scene& scene) {
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     if (scene.draws[d].viewport) check_viewport(scene.draws[d], actual.draws()[d].vertices, scene);
   }
-  if (unsupported(status)) return;
   if (status != Status::ok) fail(std::string("the engine refuses a valid scene: ") + status_text(status));
   corpus::Frame expected(scene, outputs);
   oracle::render(expected.target(), expected.draws());

@@ -11,8 +11,8 @@
 
 namespace surefill::reference {
 
-// As surefill::render, for arguments that validate() has accepted and modes that are supported, with the floating-point
-// state already set. Returns ok or out_of_memory.
+// As surefill::render, for arguments that validate() has accepted, with the floating-point state already set. Returns
+// ok or out_of_memory.
 Status render(const Target& target, std::span<const Draw> draws, Statistics& statistics) noexcept;
 
 }  // namespace surefill::reference

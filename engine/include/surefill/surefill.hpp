@@ -67,9 +67,6 @@ enum class Status : std::uint32_t {
   draw_depth_mode,               // not an enumerator of DepthMode
   draw_conservative,             // not an enumerator of Conservative, or in a frame that asks for more than count [M4]
   draw_grid,                     // bits outside 0..12, an offset outside 0..15, or not an enumerator of GridRounding
-  unsupported_samples,           // the value is legal, but this version of the engine does not draw it yet
-  unsupported_grid,              //
-  unsupported_conservative,      //
   viewport,                      // a viewport number that is not finite
   options_threads,               // a number of threads outside 1..kMaxThreads
   options_path,                  // not an enumerator of Path
@@ -230,7 +227,7 @@ std::size_t sample_total(const Target& target) noexcept;
 Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics = nullptr,
               const Options& options = {}) noexcept;
 
-// Checks the arguments of render as render does, and draws nothing. `unsupported_*` is not reported.
+// Checks the arguments of render as render does, and draws nothing.
 Status validate(const Target& target, std::span<const Draw> draws) noexcept;
 
 // The offset of sample n of a pixel from the pixel's top left corner, in 1/16 pixel [S4]. n < samples.

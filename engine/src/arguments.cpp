@@ -236,6 +236,10 @@ const char* status_text(Status status) noexcept {
       return "the number of threads is outside 1..256";
     case Status::options_path:
       return "the path is not an enumerator of Path";
+    case Status::query_boxes:
+      return "the boxes or rectangles of the query are null or hold a number that is not finite";
+    case Status::query_answers:
+      return "the answers of the query are null or not one for each box";
   }
   return "unknown status";
 }

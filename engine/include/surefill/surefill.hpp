@@ -29,6 +29,7 @@
 #include <optional>
 #include <span>
 
+#include "surefill/export.h"
 #include "surefill/version.hpp"
 
 namespace surefill {
@@ -70,10 +71,12 @@ enum class Status : std::uint32_t {
   viewport,                      // a viewport number that is not finite
   options_threads,               // a number of threads outside 1..kMaxThreads
   options_path,                  // not an enumerator of Path
+  query_boxes,                   // of an occlusion query: null but not empty, or a number that is not finite
+  query_answers,                 // null but not empty, or not one for each box
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
-const char* status_text(Status status) noexcept;
+SUREFILL_API const char* status_text(Status status) noexcept;
 
 // A pixel-homogeneous vertex [S2]. In an array: 16 bytes a vertex, no padding.
 struct Vertex {
@@ -99,7 +102,8 @@ struct Viewport {
 // ties to even, beyond range infinity). Equal inputs give bitwise equal outputs, so shared vertices stay shared.
 // `vertices` and `out` have the same size and do not overlap; else, or if a viewport number is not finite, the status
 // says so and nothing is written.
-Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices, std::span<Vertex> out) noexcept;
+SUREFILL_API Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices,
+                             std::span<Vertex> out) noexcept;
 
 // Which side owns a sample that lies exactly on an edge [C3]: the sample is moved by an infinitely small step. The
 // first four move it in x first and in y only to settle ties along a horizontal edge; the last four in y first.
@@ -189,7 +193,7 @@ struct Statistics {
   std::uint64_t dropped = 0;     // a NaN or an infinity [B1]
   std::uint64_t degenerate = 0;  // D = 0 [C1]
   std::uint64_t culled = 0;      // by facing [F2]
-  std::uint64_t outside = 0;     // no sample of the target lies in its screen box (the fast path looks at this before D)
+  std::uint64_t outside = 0;  // no sample of the target lies in its screen box (the fast path looks at this before D)
   std::uint64_t rasterized = 0;  // the rest
 
   // Signs of edge functions and of D by the rung of the ladder that settled them; on the fast path, of edge functions
@@ -220,21 +224,21 @@ struct Options {
 };
 
 // The number of samples of a target: width * height * samples. 0 if a size is outside S5.
-std::size_t sample_total(const Target& target) noexcept;
+SUREFILL_API std::size_t sample_total(const Target& target) noexcept;
 
 // Draws a frame: the draws in order, each onto the image of those before it [V3]. Nothing is written unless the status
 // is ok, or out_of_memory (then the buffers asked for hold unspecified values). `statistics` may be null.
-Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics = nullptr,
-              const Options& options = {}) noexcept;
+SUREFILL_API Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics = nullptr,
+                           const Options& options = {}) noexcept;
 
 // Checks the arguments of render as render does, and draws nothing.
-Status validate(const Target& target, std::span<const Draw> draws) noexcept;
+SUREFILL_API Status validate(const Target& target, std::span<const Draw> draws) noexcept;
 
 // The offset of sample n of a pixel from the pixel's top left corner, in 1/16 pixel [S4]. n < samples.
 struct SampleLocation {
   int x, y;
 };
-SampleLocation sample_location(int samples, int n) noexcept;
+SUREFILL_API SampleLocation sample_location(int samples, int n) noexcept;
 
 }  // namespace surefill
 

@@ -1,0 +1,324 @@
+/* SPDX-License-Identifier: Apache-2.0 */
+/*
+ * Surefill for C: an exact triangle rasterizer. The same engine as surefill.hpp; docs/semantics.md defines every bit of
+ * the output, and the letters in brackets (S2, C3, I4, ...) are its rules. C99; any language that calls C can use it.
+ *
+ * Space      Pixels: x to the right, y down; pixel (i, j) is [i, i+1) x [j, j+1) [S1]. A vertex (X, Y, Z, W) is
+ *            pixel-homogeneous: where W > 0 it projects to pixel position (X/W, Y/W) and depth Z/W [S2].
+ *            surefill_to_pixel makes such vertices from clip space [S3].
+ * Structs    A struct that may grow begins with struct_size: set it to the sizeof, and all else to 0 but for what you
+ *            need: 0 is the default of every member, if not said otherwise. A library that knows more members takes 0
+ *            for those that the caller does not know; one that knows fewer refuses a struct that is longer than its
+ *            own with a status that names it.
+ * Buffers    The caller's, never kept, dense where no stride is given, each with its number of elements: an output of
+ *            0 elements is not asked for. Pointers to 0 elements may be null.
+ * Errors     A status names the first argument found to be wrong; then nothing was written [B2]. No call throws, prints
+ *            or aborts. NULL is allowed only where it is said.
+ * Threads    Calls share no state: any number may run at once on different buffers.
+ */
+#ifndef SUREFILL_SUREFILL_H
+#define SUREFILL_SUREFILL_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#include "surefill/export.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Empty samples hold this index [V1]. */
+#define SUREFILL_NO_TRIANGLE 0xFFFFFFFFu
+/* Pixels of a target, each way [S5]. */
+#define SUREFILL_MAX_TARGET_SIZE 16384
+/* Attribute arrays of a draw. */
+#define SUREFILL_MAX_ATTRIBUTES 16
+/* Floats of one attribute. */
+#define SUREFILL_MAX_COMPONENTS 4
+/* Threads of a call. */
+#define SUREFILL_MAX_THREADS 256
+
+/* What a call returns: the argument at fault. Numbers are never reused. */
+typedef enum surefill_status {
+  SUREFILL_OK = 0,
+  SUREFILL_OUT_OF_MEMORY,             /* outputs asked for hold unspecified values */
+  SUREFILL_TARGET_SIZE,               /* width or height outside 1..SUREFILL_MAX_TARGET_SIZE */
+  SUREFILL_TARGET_SAMPLES,            /* samples not 1, 2, 4, 8 or 16 */
+  SUREFILL_TARGET_COUNT,              /* count: neither 0 elements nor surefill_sample_total */
+  SUREFILL_TARGET_INDEX,              /* index: the same */
+  SUREFILL_TARGET_DEPTH,              /* depth: the same */
+  SUREFILL_TARGET_BARYCENTRICS,       /* barycentrics: neither 0 elements nor 3 * surefill_sample_total */
+  SUREFILL_TARGET_ATTRIBUTES,         /* components outside 1..4, more than 16, null, or the wrong size */
+  SUREFILL_TARGET_INITIAL_DEPTH,      /* initial_depth: neither 0 elements nor surefill_sample_total */
+  SUREFILL_TARGET_OVERLAP,            /* an output overlaps another buffer */
+  SUREFILL_TARGET_DEPTH_TEST,         /* not a surefill_depth_test */
+  SUREFILL_TARGET_ATTRIBUTE_LOCATION, /* not a surefill_attribute_location */
+  SUREFILL_DRAWS,                     /* draws is null, and draw_count is not 0 */
+  SUREFILL_DRAW_VERTICES,           /* vertices null or more than 2^32 - 1; of to_pixel: null, or in and out overlap */
+  SUREFILL_DRAW_INDICES,            /* indices null, no multiple of 3, or more than 2^32 - 2 triangles */
+  SUREFILL_DRAW_INDEX_OUT_OF_RANGE, /* an index that names no vertex */
+  SUREFILL_DRAW_IDENTIFIERS,        /* neither 0 nor one for each triangle */
+  SUREFILL_DRAW_FIRST_INDEX,        /* first_index + triangles exceeds 2^32 - 1 */
+  SUREFILL_DRAW_ATTRIBUTES,         /* fewer arrays than the target asks for, other components, or too short */
+  SUREFILL_DRAW_ATTRIBUTE_INTERPOLATION, /* not a surefill_interpolation */
+  SUREFILL_DRAW_FILL_RULE,               /* not a surefill_fill_rule */
+  SUREFILL_DRAW_FRONT_FACE,              /* not a surefill_front_face */
+  SUREFILL_DRAW_CULL,                    /* not a surefill_cull */
+  SUREFILL_DRAW_DEPTH_MODE,              /* not a surefill_depth_mode */
+  SUREFILL_DRAW_CONSERVATIVE,            /* not a surefill_conservative, or with more than count asked for [M4] */
+  SUREFILL_DRAW_GRID,                    /* bits outside 0..12, an offset outside 0..15, or not a rounding */
+  SUREFILL_VIEWPORT,                     /* a viewport number that is not finite, or not an enumerator */
+  SUREFILL_OPTIONS_THREADS,              /* threads outside 1..SUREFILL_MAX_THREADS (and not 0, which means 1) */
+  SUREFILL_OPTIONS_PATH,                 /* not a surefill_path */
+  SUREFILL_QUERY_BOXES,                  /* boxes or rectangles null, or with a number that is not finite */
+  SUREFILL_QUERY_ANSWERS,                /* answers null, or not one for each box */
+  /* Of this interface alone. */
+  SUREFILL_NULL_TARGET = 1000,    /* target is null */
+  SUREFILL_NULL_VIEWPORT,         /* viewport is null */
+  SUREFILL_NULL_OCCLUSION,        /* the occlusion buffer, or the place for a new one, is null */
+  SUREFILL_TARGET_STRUCT_SIZE,    /* target->struct_size is no struct size this version knows */
+  SUREFILL_DRAW_STRUCT_SIZE,      /* draws[i].struct_size: the same, or draws of several sizes in one list */
+  SUREFILL_OPTIONS_STRUCT_SIZE,   /* options->struct_size: the same */
+  SUREFILL_STATISTICS_STRUCT_SIZE /* statistics->struct_size: the same */
+} surefill_status;
+
+/* Which side owns a sample that lies exactly on an edge [C3]. */
+typedef enum surefill_fill_rule {
+  SUREFILL_TOP_LEFT = 0, /* Direct3D, Vulkan */
+  SUREFILL_TOP_RIGHT,
+  SUREFILL_BOTTOM_LEFT, /* OpenGL with y up */
+  SUREFILL_BOTTOM_RIGHT,
+  SUREFILL_SOUTHWARDS,
+  SUREFILL_SOUTHWARDS_WEST,
+  SUREFILL_NORTHWARDS,
+  SUREFILL_NORTHWARDS_WEST
+} surefill_fill_rule;
+
+/* Which facing is the front, as seen on the screen [F1]. */
+typedef enum surefill_front_face { SUREFILL_CLOCKWISE = 0, SUREFILL_COUNTER_CLOCKWISE } surefill_front_face;
+/* Which facing is not drawn [F2]. */
+typedef enum surefill_cull { SUREFILL_CULL_NONE = 0, SUREFILL_CULL_FRONT, SUREFILL_CULL_BACK } surefill_cull;
+/* Which depth is nearer: the smaller, or with reversed z the greater [V1]. */
+typedef enum surefill_depth_test { SUREFILL_LESS = 0, SUREFILL_GREATER } surefill_depth_test;
+/* What happens outside 0 <= z <= 1 [I5]. */
+typedef enum surefill_depth_mode {
+  SUREFILL_DEPTH_NONE = 0, /* nothing: any depth is kept */
+  SUREFILL_DEPTH_CLIP,     /* the fragment is dropped */
+  SUREFILL_DEPTH_CLAMP     /* z is clamped */
+} surefill_depth_mode;
+/* How an attribute varies over a triangle [I2]. */
+typedef enum surefill_interpolation {
+  SUREFILL_PERSPECTIVE = 0,
+  SUREFILL_NOPERSPECTIVE, /* affine on the screen */
+  SUREFILL_FLAT           /* the value of vertex 0 */
+} surefill_interpolation;
+/* Where in a pixel of several samples attributes are taken [M1]. */
+typedef enum surefill_attribute_location { SUREFILL_CENTRE = 0, SUREFILL_CENTROID } surefill_attribute_location;
+/* Whole pixels instead of samples: those that the triangle touches, or those that lie in it [M4]. */
+typedef enum surefill_conservative {
+  SUREFILL_CONSERVATIVE_NONE = 0,
+  SUREFILL_CONSERVATIVE_OVER,
+  SUREFILL_CONSERVATIVE_INNER
+} surefill_conservative;
+/* How positions go to the grid [section 6]. */
+typedef enum surefill_grid_rounding {
+  SUREFILL_NEAREST_EVEN = 0,
+  SUREFILL_NEAREST_UP,
+  SUREFILL_TRUNCATE
+} surefill_grid_rounding;
+/* Who draws; both give the same image. */
+typedef enum surefill_path { SUREFILL_PATH_AUTOMATIC = 0, SUREFILL_PATH_REFERENCE } surefill_path;
+/* The answer to an occlusion query [O3]. */
+typedef enum surefill_answer {
+  SUREFILL_OUTSIDE = 0, /* reaches no sample of the target */
+  SUREFILL_HIDDEN,      /* would change no sample */
+  SUREFILL_VISIBLE      /* may be seen */
+} surefill_answer;
+
+/* A pixel-homogeneous vertex [S2], or one in clip space where a function says so. 16 bytes. */
+typedef struct surefill_vertex {
+  float x, y, z, w;
+} surefill_vertex;
+
+/* The rectangle of the target, in pixels, and the depth range that clip space is mapped to [S3]. All are set by the
+ * caller; finite. */
+typedef struct surefill_viewport {
+  float x, y, width, height, near_depth, far_depth;
+  uint32_t clip_depth_minus_one; /* 0: clip depth is 0..1 (Direct3D, Vulkan); 1: -1..1 (OpenGL) */
+  uint32_t clip_y_down;          /* 0: y up in clip space; 1: y down (Vulkan) */
+} surefill_viewport;
+
+/* Half-open pixel rectangle [x0, x1) x [y0, y1); any values [M3]. */
+typedef struct surefill_scissor {
+  int32_t x0, y0, x1, y1;
+} surefill_scissor;
+
+/* Positions are snapped to offset + k 2^-bits pixels before coverage, as GPUs do [section 6]. */
+typedef struct surefill_grid {
+  int32_t bits;               /* 0..12; GPUs have 8 */
+  int32_t offset_x, offset_y; /* 0..15, in units of 2^-(bits + 4) pixels */
+  uint32_t rounding;          /* surefill_grid_rounding */
+} surefill_grid;
+
+/* One attribute of every vertex of a draw. Component c of vertex v is values[v * stride + c]. */
+typedef struct surefill_attribute_array {
+  const float* values;
+  size_t value_count;     /* floats: at least (vertices - 1) * stride + components */
+  uint32_t components;    /* 1..SUREFILL_MAX_COMPONENTS; must be set */
+  uint32_t stride;        /* floats from one vertex to the next; 0 means `components` */
+  uint32_t interpolation; /* surefill_interpolation */
+} surefill_attribute_array;
+
+/* Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2]. */
+typedef struct surefill_draw {
+  size_t struct_size;              /* sizeof(surefill_draw); the same in all draws of a list */
+  const surefill_vertex* vertices; /* dense, 16 bytes each */
+  size_t vertex_count;
+  const uint32_t* indices;
+  size_t index_count;          /* three a triangle */
+  const uint32_t* identifiers; /* one a triangle, unique; or none: first_index + t [V2] */
+  size_t identifier_count;
+  const surefill_attribute_array* attributes; /* array k feeds target attribute k; more only take part in B1 */
+  size_t attribute_count;
+  uint32_t first_index;
+  uint32_t fill_rule;                 /* surefill_fill_rule */
+  uint32_t front_face;                /* surefill_front_face */
+  uint32_t cull;                      /* surefill_cull */
+  uint32_t depth_mode;                /* surefill_depth_mode */
+  uint32_t conservative;              /* surefill_conservative */
+  uint32_t depth_write_off;           /* not 0: the depth image is read only [M5] */
+  const surefill_scissor* scissor;    /* NULL: none */
+  const surefill_grid* grid;          /* NULL: none, positions are exact */
+  const surefill_vertex* culling_box; /* NULL, or 8 corners whose hull contains the draw: the caller's promise [M6] */
+} surefill_draw;
+
+/* An attribute image. Component c of sample s is values[s * components + c]. */
+typedef struct surefill_attribute_target {
+  float* values;
+  size_t value_count;  /* floats: components * surefill_sample_total, or 0: not asked for */
+  uint32_t components; /* 1..SUREFILL_MAX_COMPONENTS; must be set */
+} surefill_attribute_target;
+
+/* Where the image goes. Sample n of pixel (x, y) is element (y * width + x) * samples + n of every buffer. Each buffer
+ * asked for is overwritten whole; the empty sample holds count 0, index SUREFILL_NO_TRIANGLE, depth +inf (-inf for
+ * SUREFILL_GREATER) or the initial depth, barycentrics and attributes +0 [V1]. */
+typedef struct surefill_target {
+  size_t struct_size;    /* sizeof(surefill_target) */
+  int32_t width, height; /* pixels; must be set */
+  int32_t samples;       /* a pixel: 1, 2, 4, 8 or 16, at the standard locations [S4]; must be set */
+  uint32_t depth_test;   /* surefill_depth_test */
+  uint32_t* count;       /* triangles that cover the sample [M2] */
+  size_t count_count;
+  uint32_t* index; /* the visible triangle [V1, V2] */
+  size_t index_count;
+  float* depth; /* its depth [I1] */
+  size_t depth_count;
+  float* barycentrics; /* its perspective-correct weights: 3 floats a sample [I3] */
+  size_t barycentrics_count;
+  const surefill_attribute_target* attributes; /* its attributes [I2] */
+  size_t attribute_count;
+  const float* initial_depth; /* a fragment must beat it strictly [V1]; may be the depth buffer itself */
+  size_t initial_depth_count;
+  uint32_t attribute_location; /* surefill_attribute_location */
+} surefill_target;
+
+/* How a frame is drawn. */
+typedef struct surefill_options {
+  size_t struct_size; /* sizeof(surefill_options) */
+  int32_t threads;    /* 1..SUREFILL_MAX_THREADS; 0 means 1 */
+  uint32_t path;      /* surefill_path */
+} surefill_options;
+
+/* What one call did. The first group adds up to `triangles`. */
+typedef struct surefill_statistics {
+  size_t struct_size; /* sizeof(surefill_statistics), set by the caller */
+  uint64_t triangles;
+  uint64_t dropped;    /* a NaN or an infinity [B1] */
+  uint64_t degenerate; /* D = 0 [C1] */
+  uint64_t culled;     /* by facing [F2] */
+  uint64_t outside;    /* no sample of the target lies in the triangle's screen box */
+  uint64_t rasterized; /* the rest */
+  const char* path;    /* what drew the frame: "reference", or an instruction set; a string constant */
+} surefill_statistics;
+
+/* A depth buffer of occluders that can be asked whether boxes are hidden: semantics.md, section 9. */
+typedef struct surefill_occlusion surefill_occlusion;
+
+/* Pixel-homogeneous corners, in any order; the box is their hull. Finite. [O2] */
+typedef struct surefill_box {
+  surefill_vertex corners[8];
+} surefill_box;
+
+/* A closed rectangle in pixels and the nearest depth of what is in it. No NaN. [O2] */
+typedef struct surefill_rectangle {
+  float x0, y0, x1, y1, nearest_depth;
+} surefill_rectangle;
+
+/* The library's version, "major.minor.patch" (semver.org). Never NULL. */
+SUREFILL_API const char* surefill_version(void);
+
+/* An English sentence for a status, without a full stop. Never NULL; for an unknown value, "unknown status". */
+SUREFILL_API const char* surefill_status_text(surefill_status status);
+
+/* The viewport map [S3]: `count` vertices of clip space to `out`, pixel-homogeneous. Each component is the exact real
+ * value, rounded once to float32. Errors: NULL_VIEWPORT, VIEWPORT, DRAW_VERTICES (NULL with count > 0, or the two
+ * arrays overlap). */
+SUREFILL_API surefill_status surefill_to_pixel(const surefill_viewport* viewport, const surefill_vertex* vertices,
+                                               size_t count, surefill_vertex* out);
+
+/* The number of samples of a target: width * height * samples; 0 if a size is outside S5 or target is NULL. */
+SUREFILL_API size_t surefill_sample_total(const surefill_target* target);
+
+/* The offset of sample n of a pixel from its top left corner, in 1/16 pixel [S4]. 0 <= n < samples, else that of
+ * sample 0. x or y may be NULL. */
+SUREFILL_API void surefill_sample_location(int32_t samples, int32_t n, int32_t* x, int32_t* y);
+
+/* Checks the arguments of surefill_render as it does, and draws nothing. Errors: all of TARGET_*, DRAWS, DRAW_*,
+ * NULL_TARGET, *_STRUCT_SIZE, OUT_OF_MEMORY. */
+SUREFILL_API surefill_status surefill_validate(const surefill_target* target, const surefill_draw* draws,
+                                               size_t draw_count);
+
+/* Draws a frame: the draws in order, each onto the image of those before it [V3]. options and statistics may be NULL.
+ * Errors: those of surefill_validate, OPTIONS_*. */
+SUREFILL_API surefill_status surefill_render(const surefill_target* target, const surefill_draw* draws,
+                                             size_t draw_count, const surefill_options* options,
+                                             surefill_statistics* statistics);
+
+/* Makes an occlusion buffer of width x height pixels, empty, into *occlusion. depth_test: surefill_depth_test. Errors:
+ * NULL_OCCLUSION, TARGET_SIZE, TARGET_DEPTH_TEST, OUT_OF_MEMORY. */
+SUREFILL_API surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
+                                                       surefill_occlusion** occlusion);
+
+/* Frees it. NULL is allowed. */
+SUREFILL_API void surefill_occlusion_destroy(surefill_occlusion* occlusion);
+
+/* Forgets the occluders: every box that reaches a sample is visible. NULL is allowed. */
+SUREFILL_API void surefill_occlusion_clear(surefill_occlusion* occlusion);
+
+/* Draws occluders onto those before. Each call goes over the whole buffer once, so give many draws to one call. Errors:
+ * NULL_OCCLUSION and those of surefill_render; after OUT_OF_MEMORY the buffer is clear. No other call may use the same
+ * buffer meanwhile. */
+SUREFILL_API surefill_status surefill_occlusion_draw(surefill_occlusion* occlusion, const surefill_draw* draws,
+                                                     size_t draw_count, const surefill_options* options,
+                                                     surefill_statistics* statistics);
+
+/* answers[i] becomes the surefill_answer for the i-th of `count` boxes. Never "hidden" for what would change a sample
+ * of an image of this size [T6]. Errors: NULL_OCCLUSION, QUERY_BOXES, QUERY_ANSWERS. Any number of queries may run at
+ * once. */
+SUREFILL_API surefill_status surefill_occlusion_query_boxes(const surefill_occlusion* occlusion,
+                                                            const surefill_box* boxes, size_t count, uint8_t* answers);
+
+/* The same for screen rectangles with a nearest depth. */
+SUREFILL_API surefill_status surefill_occlusion_query_rectangles(const surefill_occlusion* occlusion,
+                                                                 const surefill_rectangle* rectangles, size_t count,
+                                                                 uint8_t* answers);
+
+/* The stored depth of pixel (x, y) at [y * width + x]; NULL for NULL. Valid until the buffer is destroyed. */
+SUREFILL_API const float* surefill_occlusion_depth(const surefill_occlusion* occlusion);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif /* SUREFILL_SUREFILL_H */

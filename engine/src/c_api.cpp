@@ -1,0 +1,316 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The C interface over the engine. Structs become their C++ counterparts; the engine checks what they hold, here only
+// struct sizes and what C++ takes by reference are checked. Nothing throws, so nothing crosses the boundary.
+#include <algorithm>
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "surefill/occlusion.hpp"
+#include "surefill/surefill.h"
+#include "surefill/surefill.hpp"
+
+struct surefill_occlusion {
+  surefill::OcclusionBuffer buffer;
+};
+
+namespace surefill {
+namespace {
+
+static_assert(sizeof(surefill_vertex) == sizeof(Vertex) && sizeof(surefill_vertex) == sizeof(ClipVertex));
+static_assert(sizeof(surefill_box) == sizeof(OcclusionBox));
+static_assert(sizeof(surefill_rectangle) == sizeof(OcclusionRectangle));
+static_assert(sizeof(Occlusion) == 1 && static_cast<int>(Occlusion::visible) == SUREFILL_VISIBLE);
+static_assert(static_cast<int>(Status::query_answers) == SUREFILL_QUERY_ANSWERS);
+static_assert(static_cast<int>(FillRule::northwards_west) == SUREFILL_NORTHWARDS_WEST);
+static_assert(kMaxTargetSize == SUREFILL_MAX_TARGET_SIZE && kMaxAttributes == SUREFILL_MAX_ATTRIBUTES);
+static_assert(kMaxComponents == SUREFILL_MAX_COMPONENTS && kMaxThreads == SUREFILL_MAX_THREADS);
+
+surefill_status to_c(Status status) {
+  return static_cast<surefill_status>(status);
+}
+
+// The C types name the same bytes as the C++ ones.
+std::span<const Vertex> vertices_of(const surefill_vertex* vertices, std::size_t count) {
+  return {reinterpret_cast<const Vertex*>(vertices), count};
+}
+
+// 255 is no enumerator of any enumeration: what does not fit in a byte is refused like it.
+template <typename Enumeration>
+Enumeration enumerator(std::uint32_t value) {
+  return static_cast<Enumeration>(std::min<std::uint32_t>(value, 255));
+}
+
+// The bytes of a struct up to and with `last`, a member of the first version: no struct is shorter.
+#define SUREFILL_SIZE_TO(type, last) (offsetof(type, last) + sizeof(type::last))
+
+// Copies what the caller knows of a struct; what it does not know is 0. False if its size is no size of this version.
+template <typename Struct>
+bool read_struct(const void* from, std::size_t least_size, Struct* to) {
+  std::size_t size;
+  std::memcpy(&size, from, sizeof size);
+  if (size < least_size || size > sizeof(Struct)) return false;
+  *to = {};
+  std::memcpy(to, from, size);
+  return true;
+}
+
+// A frame's arguments in C++. Null lists stay null, with their size, for validate() to see.
+class Arguments {
+ public:
+  surefill_status read_target(const surefill_target* from) {
+    if (from == nullptr) return SUREFILL_NULL_TARGET;
+    surefill_target c;
+    if (!read_struct(from, SUREFILL_SIZE_TO(surefill_target, attribute_location), &c))
+      return SUREFILL_TARGET_STRUCT_SIZE;
+    target.width = c.width, target.height = c.height, target.samples = c.samples;
+    target.count = {c.count, c.count_count};
+    target.index = {c.index, c.index_count};
+    target.depth = {c.depth, c.depth_count};
+    target.barycentrics = {c.barycentrics, c.barycentrics_count};
+    target.initial_depth = {c.initial_depth, c.initial_depth_count};
+    target.depth_test = enumerator<DepthTest>(c.depth_test);
+    target.attribute_location = enumerator<AttributeLocation>(c.attribute_location);
+    if (c.attributes == nullptr || c.attribute_count > kMaxAttributes) {
+      target.attributes = {static_cast<const AttributeTarget*>(nullptr), c.attribute_count};
+    } else {
+      for (std::size_t k = 0; k < c.attribute_count; ++k) {
+        const surefill_attribute_target& attribute = c.attributes[k];
+        attribute_targets_[k] = {{attribute.values, attribute.value_count}, attribute.components};
+      }
+      target.attributes = {attribute_targets_, c.attribute_count};
+    }
+    return SUREFILL_OK;
+  }
+
+  surefill_status read_draws(const surefill_draw* from, std::size_t count) {
+    if (from == nullptr) {
+      draws = {static_cast<const Draw*>(nullptr), count};
+      return SUREFILL_OK;
+    }
+    if (count == 0) return SUREFILL_OK;
+    // Elements lie as far apart as the caller's struct is long.
+    const std::size_t stride = from->struct_size;
+    const auto* bytes = reinterpret_cast<const unsigned char*>(from);
+    std::size_t attributes = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      surefill_draw c;
+      if (!read_draw(bytes + i * stride, stride, &c)) return SUREFILL_DRAW_STRUCT_SIZE;
+      attributes += listed_attributes(c);
+    }
+    draws_.reset(new (std::nothrow) Draw[count]);
+    attributes_.reset(new (std::nothrow) AttributeArray[attributes]);
+    if (draws_ == nullptr || attributes_ == nullptr) return SUREFILL_OUT_OF_MEMORY;
+    AttributeArray* next = attributes_.get();
+    for (std::size_t i = 0; i < count; ++i) {
+      surefill_draw c;
+      read_draw(bytes + i * stride, stride, &c);
+      convert(c, draws_[i], next);
+      next += listed_attributes(c);
+    }
+    draws = {draws_.get(), count};
+    return SUREFILL_OK;
+  }
+
+  surefill_status read(const surefill_target* c_target, const surefill_draw* c_draws, std::size_t count) {
+    const surefill_status status = read_target(c_target);
+    return status != SUREFILL_OK ? status : read_draws(c_draws, count);
+  }
+
+  Target target;
+  std::span<const Draw> draws;
+
+ private:
+  static bool read_draw(const void* from, std::size_t stride, surefill_draw* c) {
+    return read_struct(from, SUREFILL_SIZE_TO(surefill_draw, culling_box), c) && c->struct_size == stride;
+  }
+
+  // How many of a draw's attribute arrays can be read.
+  static std::size_t listed_attributes(const surefill_draw& c) {
+    return c.attributes == nullptr || c.attribute_count > kMaxAttributes ? 0 : c.attribute_count;
+  }
+
+  static void convert(const surefill_draw& c, Draw& draw, AttributeArray* arrays) {
+    draw.vertices = vertices_of(c.vertices, c.vertex_count);
+    draw.indices = {c.indices, c.index_count};
+    draw.identifiers = {c.identifiers, c.identifier_count};
+    draw.first_index = c.first_index;
+    draw.fill_rule = enumerator<FillRule>(c.fill_rule);
+    draw.front_face = enumerator<FrontFace>(c.front_face);
+    draw.cull = enumerator<Cull>(c.cull);
+    draw.depth_mode = enumerator<DepthMode>(c.depth_mode);
+    draw.depth_write = c.depth_write_off == 0;
+    draw.conservative = enumerator<Conservative>(c.conservative);
+    if (c.scissor != nullptr) draw.scissor = Scissor{c.scissor->x0, c.scissor->y0, c.scissor->x1, c.scissor->y1};
+    if (c.grid != nullptr) {
+      draw.grid = Grid{c.grid->bits, c.grid->offset_x, c.grid->offset_y, enumerator<GridRounding>(c.grid->rounding)};
+    }
+    if (c.culling_box != nullptr) {
+      std::copy_n(vertices_of(c.culling_box, 8).begin(), 8, draw.culling_box.emplace().begin());
+    }
+    const std::size_t listed = listed_attributes(c);
+    for (std::size_t k = 0; k < listed; ++k) {
+      const surefill_attribute_array& a = c.attributes[k];
+      arrays[k] = {{a.values, a.value_count}, a.components, a.stride, enumerator<Interpolation>(a.interpolation)};
+    }
+    draw.attributes = {listed == c.attribute_count ? arrays : nullptr, c.attribute_count};
+  }
+
+  AttributeTarget attribute_targets_[kMaxAttributes];
+  std::unique_ptr<Draw[]> draws_;
+  std::unique_ptr<AttributeArray[]> attributes_;
+};
+
+constexpr std::size_t kLeastStatistics = SUREFILL_SIZE_TO(surefill_statistics, path);
+
+surefill_status read_options(const surefill_options* from, Options* options) {
+  if (from == nullptr) return SUREFILL_OK;
+  surefill_options c;
+  if (!read_struct(from, SUREFILL_SIZE_TO(surefill_options, path), &c)) return SUREFILL_OPTIONS_STRUCT_SIZE;
+  options->threads = c.threads == 0 ? 1 : c.threads;
+  options->path = enumerator<Path>(c.path);
+  return SUREFILL_OK;
+}
+
+// Calls `draw` with C++ options and statistics, and gives the statistics back.
+template <typename Function>
+surefill_status with_options(const surefill_options* c_options, surefill_statistics* c_statistics, Function draw) {
+  Options options;
+  if (const surefill_status status = read_options(c_options, &options); status != SUREFILL_OK) return status;
+  surefill_statistics c{};
+  if (c_statistics != nullptr && !read_struct(c_statistics, kLeastStatistics, &c)) {
+    return SUREFILL_STATISTICS_STRUCT_SIZE;
+  }
+  Statistics s;
+  const Status status = draw(s, options);
+  if (status == Status::ok && c_statistics != nullptr) {
+    const surefill_statistics result{c.struct_size, s.triangles, s.dropped,    s.degenerate,
+                                     s.culled,      s.outside,   s.rasterized, s.path};
+    std::memcpy(c_statistics, &result, c.struct_size);
+  }
+  return to_c(status);
+}
+
+template <typename Box, typename CBox>
+surefill_status query(const surefill_occlusion* occlusion, const CBox* boxes, std::size_t count,
+                      std::uint8_t* answers) {
+  if (occlusion == nullptr) return SUREFILL_NULL_OCCLUSION;
+  return to_c(occlusion->buffer.query(std::span(reinterpret_cast<const Box*>(boxes), count),
+                                      std::span(reinterpret_cast<Occlusion*>(answers), count)));
+}
+
+}  // namespace
+}  // namespace surefill
+
+using namespace surefill;
+
+const char* surefill_version(void) {
+  return SUREFILL_VERSION;
+}
+
+const char* surefill_status_text(surefill_status status) {
+  switch (status) {
+    case SUREFILL_NULL_TARGET:
+      return "the target is null";
+    case SUREFILL_NULL_VIEWPORT:
+      return "the viewport is null";
+    case SUREFILL_NULL_OCCLUSION:
+      return "the occlusion buffer is null";
+    case SUREFILL_TARGET_STRUCT_SIZE:
+      return "the target's struct_size is not known to this version";
+    case SUREFILL_DRAW_STRUCT_SIZE:
+      return "a draw's struct_size is not known to this version, or not that of the first draw";
+    case SUREFILL_OPTIONS_STRUCT_SIZE:
+      return "the options' struct_size is not known to this version";
+    case SUREFILL_STATISTICS_STRUCT_SIZE:
+      return "the statistics' struct_size is not known to this version";
+    default:
+      return status_text(static_cast<Status>(status));
+  }
+}
+
+surefill_status surefill_to_pixel(const surefill_viewport* viewport, const surefill_vertex* vertices, size_t count,
+                                  surefill_vertex* out) {
+  if (viewport == nullptr) return SUREFILL_NULL_VIEWPORT;
+  const Viewport v{viewport->x,
+                   viewport->y,
+                   viewport->width,
+                   viewport->height,
+                   viewport->near_depth,
+                   viewport->far_depth,
+                   enumerator<ClipDepth>(viewport->clip_depth_minus_one),
+                   enumerator<ClipY>(viewport->clip_y_down)};
+  return to_c(to_pixel(v, std::span(reinterpret_cast<const ClipVertex*>(vertices), count),
+                       std::span(reinterpret_cast<Vertex*>(out), count)));
+}
+
+size_t surefill_sample_total(const surefill_target* target) {
+  if (target == nullptr) return 0;
+  Target sizes;
+  sizes.width = target->width, sizes.height = target->height, sizes.samples = target->samples;
+  return sample_total(sizes);
+}
+
+void surefill_sample_location(int32_t samples, int32_t n, int32_t* x, int32_t* y) {
+  const SampleLocation location = sample_location(samples, n);
+  if (x != nullptr) *x = location.x;
+  if (y != nullptr) *y = location.y;
+}
+
+surefill_status surefill_validate(const surefill_target* target, const surefill_draw* draws, size_t draw_count) {
+  Arguments arguments;
+  const surefill_status status = arguments.read(target, draws, draw_count);
+  return status != SUREFILL_OK ? status : to_c(validate(arguments.target, arguments.draws));
+}
+
+surefill_status surefill_render(const surefill_target* target, const surefill_draw* draws, size_t draw_count,
+                                const surefill_options* options, surefill_statistics* statistics) {
+  Arguments arguments;
+  if (const surefill_status status = arguments.read(target, draws, draw_count); status != SUREFILL_OK) return status;
+  return with_options(options, statistics, [&](Statistics& s, const Options& o) {
+    return render(arguments.target, arguments.draws, &s, o);
+  });
+}
+
+surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
+                                          surefill_occlusion** occlusion) {
+  if (occlusion == nullptr) return SUREFILL_NULL_OCCLUSION;
+  std::unique_ptr<surefill_occlusion> made(new (std::nothrow) surefill_occlusion);
+  if (made == nullptr) return SUREFILL_OUT_OF_MEMORY;
+  const Status status = made->buffer.resize(width, height, enumerator<DepthTest>(depth_test));
+  if (status == Status::ok) *occlusion = made.release();
+  return to_c(status);
+}
+
+void surefill_occlusion_destroy(surefill_occlusion* occlusion) {
+  delete occlusion;
+}
+
+void surefill_occlusion_clear(surefill_occlusion* occlusion) {
+  if (occlusion != nullptr) occlusion->buffer.clear();
+}
+
+surefill_status surefill_occlusion_draw(surefill_occlusion* occlusion, const surefill_draw* draws, size_t draw_count,
+                                        const surefill_options* options, surefill_statistics* statistics) {
+  if (occlusion == nullptr) return SUREFILL_NULL_OCCLUSION;
+  Arguments arguments;
+  if (const surefill_status status = arguments.read_draws(draws, draw_count); status != SUREFILL_OK) return status;
+  return with_options(options, statistics,
+                      [&](Statistics& s, const Options& o) { return occlusion->buffer.draw(arguments.draws, &s, o); });
+}
+
+surefill_status surefill_occlusion_query_boxes(const surefill_occlusion* occlusion, const surefill_box* boxes,
+                                               size_t count, uint8_t* answers) {
+  return query<OcclusionBox>(occlusion, boxes, count, answers);
+}
+
+surefill_status surefill_occlusion_query_rectangles(const surefill_occlusion* occlusion,
+                                                    const surefill_rectangle* rectangles, size_t count,
+                                                    uint8_t* answers) {
+  return query<OcclusionRectangle>(occlusion, rectangles, count, answers);
+}
+
+const float* surefill_occlusion_depth(const surefill_occlusion* occlusion) {
+  return occlusion == nullptr ? nullptr : occlusion->buffer.depth().data();
+}

@@ -79,6 +79,7 @@ class Rasterizer {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kBatch, job_.entries.size() - begin));
       entries_ = &job_.entries[begin];
       SetUp(job_, entries_, count, kVisibility, batch_, statistics_);
+      if (!kVisibility && !kCount) continue;  // no output is asked for but the statistics
       for (std::uint32_t live = batch_.live; live != 0; live &= live - 1) {
         lane_ = static_cast<std::uint32_t>(__builtin_ctz(live));
         exact_ready_ = false;
@@ -313,7 +314,7 @@ class Rasterizer {
     const CellInt d;
     if (HWY_UNLIKELY(partial_)) covered = hn::And(covered, InRegion(cell_x, cell_y, i));
     if constexpr (!kVisibility) {
-      Count(covered, offset + i);
+      if constexpr (kCount) Count(covered, offset + i);
       return;
     }
     const CellFloat df;
@@ -441,7 +442,9 @@ class Rasterizer {
 };
 
 void Rasterize(const BinJob& job, Statistics& statistics) {
-  if (job.buffers.depth == nullptr) {
+  if (job.buffers.depth == nullptr && job.buffers.count == nullptr) {
+    Rasterizer<false, false>(job, statistics).Run();
+  } else if (job.buffers.depth == nullptr) {
     Rasterizer<false, true>(job, statistics).Run();
   } else if (job.buffers.count == nullptr) {
     Rasterizer<true, false>(job, statistics).Run();

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The paths through the engine: every instruction set that this machine has, by name, on one and two threads, gives the
+// image of the scalar reference path, bit for bit; and each test proves that the path it names is the one that ran.
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "corpus/scene.hpp"
+#include "properties/compare.hpp"
+#include "properties/generators.hpp"
+#include "surefill/surefill.hpp"
+
+#if !defined(SUREFILL_REFERENCE_ONLY)
+#include "hwy/targets.h"
+#endif
+
+namespace surefill::properties {
+namespace {
+
+// Draws on a path, and notes its name.
+Renderer on_path(Options options, std::string* path) {
+  return [options, path](const Target& target, std::span<const Draw> draws) {
+    Statistics statistics;
+    const Status status = render(target, draws, &statistics, options);
+    *path = statistics.path;
+    return status;
+  };
+}
+
+TEST(Paths, TheReferencePathRunsWhenAskedFor) {
+  std::string path;
+  const corpus::Scene scene = random_scene(categories().front(), 1);
+  corpus::Frame frame(scene, outputs_of(scene));
+  EXPECT_EQ(on_path({.path = Path::reference}, &path)(frame.target(), frame.draws()), Status::ok);
+  EXPECT_EQ(path, "reference");
+}
+
+TEST(Paths, OptionsAreChecked) {
+  const corpus::Scene scene = random_scene(categories().front(), 1);
+  corpus::Frame frame(scene, outputs_of(scene));
+  for (const int threads : {0, -1, kMaxThreads + 1}) {
+    EXPECT_EQ(render(frame.target(), frame.draws(), nullptr, {.threads = threads}), Status::options_threads);
+  }
+  EXPECT_EQ(render(frame.target(), frame.draws(), nullptr, {.path = static_cast<Path>(2)}), Status::options_path);
+}
+
+#if !defined(SUREFILL_REFERENCE_ONLY)
+
+// The fast path's frames: what the random scene has beyond them is taken out.
+corpus::Scene fast_scene(const Category& category, std::uint64_t seed, int size, int triangles) {
+  SceneLimits limits;
+  limits.max_size = size;
+  limits.max_triangles = triangles;
+  corpus::Scene scene = random_scene(category, seed, limits);
+  for (corpus::SceneDraw& draw : scene.draws) draw.depth_write = true;
+  return scene;
+}
+
+class OnTarget : public testing::TestWithParam<std::int64_t> {
+ protected:
+  void SetUp() override {
+    hwy::SetSupportedTargetsForTest(GetParam());
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+  void TearDown() override {
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+};
+
+void compare_paths(std::int64_t target, int size, int triangles, std::uint64_t scenes) {
+  for (const Category& category : categories()) {
+    for (std::uint64_t seed = 0; seed < scenes; ++seed) {
+      const corpus::Scene scene = fast_scene(category, seed, size, triangles);
+      std::string reference, fast;
+      const Options two_threads{.threads = 1 + static_cast<int>(seed & 1)};
+      const Comparison result =
+          compare(scene, on_path({.path = Path::reference}, &reference), on_path(two_threads, &fast));
+      ASSERT_EQ(reference, "reference");
+      ASSERT_EQ(fast, hwy::TargetName(target)) << "the path under test did not run";
+      ASSERT_EQ(result.differences, 0u) << category.name << ", seed " << seed << ": "
+                                        << describe(result.first.front(), scene.samples) << '\n'
+                                        << corpus::write_scene(scene);
+    }
+  }
+}
+
+TEST_P(OnTarget, SmallTargetsEqualTheReference) {
+  compare_paths(GetParam(), 16, 4, 200);
+}
+TEST_P(OnTarget, SeveralTilesEqualTheReference) {
+  compare_paths(GetParam(), 150, 8, 12);
+}
+TEST_P(OnTarget, SeveralBinsEqualTheReference) {
+  compare_paths(GetParam(), 400, 12, 2);
+}
+
+// What this machine has and this compiler was given (HWY_TARGETS).
+std::vector<std::int64_t> targets() {
+  std::vector<std::int64_t> all;
+  for (std::int64_t bits = hwy::SupportedTargets() & HWY_TARGETS; bits != 0; bits &= bits - 1) all.push_back(bits & -bits);
+  return all;
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, OnTarget, testing::ValuesIn(targets()),
+                         [](const auto& name) { return std::string(hwy::TargetName(name.param)); });
+
+// More triangles than one chunk takes, in several draws: the image is kept between chunks.
+TEST(Paths, ChunksKeepTheImage) {
+  corpus::Scene scene;
+  scene.width = 300, scene.height = 200;
+  Random random(5);
+  for (int d = 0; d < 3; ++d) {
+    corpus::SceneDraw& draw = scene.draws.emplace_back();
+    for (std::uint32_t t = 0; t < 400000; ++t) {
+      const float x = static_cast<float>(random.below(300 * 16)) / 16,
+                  y = static_cast<float>(random.below(200 * 16)) / 16;
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        draw.vertices.push_back({x + static_cast<float>(random.below(48)) / 16,
+                                 y + static_cast<float>(random.below(48)) / 16,
+                                 static_cast<float>(random.below(1000)),
+                                 1,
+                                 {}});
+      }
+      draw.triangles.push_back({{3 * t, 3 * t + 1, 3 * t + 2}, {}});
+    }
+  }
+  std::string reference, fast;
+  const Comparison result =
+      compare(scene, on_path({.path = Path::reference}, &reference), on_path({.threads = 2}, &fast));
+  EXPECT_NE(fast, "reference");
+  EXPECT_EQ(result.differences, 0u);
+}
+
+#endif
+
+}  // namespace
+}  // namespace surefill::properties

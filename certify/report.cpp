@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "certify/build_info.hpp"
-#include "surefill/version.hpp"
+#include "surefill/surefill.hpp"
 
 namespace surefill::certify {
 
@@ -58,6 +58,16 @@ std::string how_many(const CheckResult& result, std::uint64_t seed) {
   return fmt::format("sampled {} {}, seed {}", grouped(result.cases), result.unit, seed);
 }
 
+// The path that draws a frame here, as the engine names it.
+std::string engine_path() {
+  std::uint32_t count = 0;
+  Target target;
+  target.width = target.height = 1;
+  target.count = {&count, 1};
+  Statistics statistics;
+  return render(target, {}, &statistics) == Status::ok ? statistics.path : "unknown";
+}
+
 }  // namespace
 
 Facts build_facts() {
@@ -67,7 +77,7 @@ Facts build_facts() {
   facts.compiler = kBuildCompiler;
   facts.flags = kBuildFlags;
   facts.cpu = cpu_model();
-  facts.instruction_set = "scalar reference";
+  facts.instruction_set = engine_path();
   return facts;
 }
 

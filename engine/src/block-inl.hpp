@@ -10,6 +10,7 @@
 #define SUREFILL_SRC_BLOCK_INL_HPP
 #endif
 
+#include "hwy/cache_control.h"
 #include "setup-inl.hpp"
 #include "triangle.hpp"
 
@@ -78,6 +79,7 @@ class Rasterizer {
     for (std::size_t begin = 0; begin < job_.entries.size(); begin += kBatch) {
       const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kBatch, job_.entries.size() - begin));
       entries_ = &job_.entries[begin];
+      Prefetch(begin);
       SetUp(job_, entries_, count, kVisibility, batch_, statistics_);
       if (!kVisibility && !kCount) continue;  // no output is asked for but the statistics
       for (std::uint32_t live = batch_.live; live != 0; live &= live - 1) {
@@ -95,6 +97,19 @@ class Rasterizer {
   }
 
  private:
+  // Triangles of a bin lie anywhere in memory: their indices and vertices are asked for a few batches ahead.
+  void Prefetch(std::size_t begin) const {
+    const std::size_t far = begin + 4 * kBatch, near = begin + 2 * kBatch, end = job_.entries.size();
+    for (std::size_t i = far; i < std::min(far + kBatch, end); ++i) hwy::Prefetch(Indices(i));
+    for (std::size_t i = near; i < std::min(near + kBatch, end); ++i) {
+      const std::uint32_t* const indices = Indices(i);
+      for (std::size_t k = 0; k < 3; ++k) hwy::Prefetch(&draw_.vertices[indices[k]]);
+    }
+  }
+  const std::uint32_t* Indices(std::size_t entry) const {
+    return &draw_.indices[std::size_t{3} * (job_.chunk_begin + job_.entries[entry].number)];
+  }
+
   // ---- depth plane of the triangle at hand
   void LoadPlane() {
     origin_x_ = batch_.OriginX(lane_), origin_y_ = batch_.OriginY(lane_);

@@ -36,12 +36,13 @@ enum class Occlusion : std::uint8_t {
   visible,  // may be seen
 };
 
+// The depth of the occluders, and what is asked of it.
 class SUREFILL_API OcclusionBuffer {
  public:
   OcclusionBuffer() noexcept = default;  // of 0 x 0 pixels: every box is outside
   ~OcclusionBuffer();
-  OcclusionBuffer(OcclusionBuffer&& other) noexcept;
-  OcclusionBuffer& operator=(OcclusionBuffer&& other) noexcept;
+  OcclusionBuffer(OcclusionBuffer&& other) noexcept;             // leaves 0 x 0 pixels behind
+  OcclusionBuffer& operator=(OcclusionBuffer&& other) noexcept;  // swaps
 
   // Gives the buffer a size in pixels [S5] and the sense of depth, and clears it. target_size, target_depth_test or
   // out_of_memory: the buffer is as it was. Memory: 4.1 bytes a pixel.
@@ -57,6 +58,7 @@ class SUREFILL_API OcclusionBuffer {
   // answers[i] is the answer for the i-th box. query_boxes: null but not empty, or a number that is not finite (in a
   // rectangle: a NaN). query_answers: not one for each box. Allocates nothing.
   Status query(std::span<const OcclusionBox> boxes, std::span<Occlusion> answers) const noexcept;
+  // The same for screen rectangles.
   Status query(std::span<const OcclusionRectangle> rectangles, std::span<Occlusion> answers) const noexcept;
 
   int width() const noexcept;   // pixels

@@ -16,10 +16,11 @@
 //            most kMaxComponents floats.
 // Errors     Nothing throws, prints or aborts. A Status names the argument at fault; then nothing was written [B2].
 //            A triangle with a NaN or an infinity is dropped and counted, and changes nothing else [B1].
-// Threads    Calls share no state: any number may run at once on different targets. Each call runs on one thread.
-// Memory     A call allocates at most 8 bytes for each sample, and none for coverage counts alone; when that cannot be
-// had the
-//            status is out_of_memory.
+// Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
+//            only if Options asks for them, and they end with it.
+// Memory     A call allocates what it needs, a few bytes for each sample and each triangle, and frees it; when that
+// cannot
+//            be had, the status is out_of_memory.
 #ifndef SUREFILL_SUREFILL_HPP
 #define SUREFILL_SUREFILL_HPP
 
@@ -88,8 +89,8 @@ struct ClipVertex {
   float x, y, z, w;
 };
 
-enum class ClipDepth : std::uint8_t { zero_to_one, minus_one_to_one };
-enum class ClipY : std::uint8_t { up, down };
+enum class ClipDepth : std::uint8_t { zero_to_one, minus_one_to_one };  // Direct3D and Vulkan; OpenGL
+enum class ClipY : std::uint8_t { up, down };                           // Direct3D and OpenGL; Vulkan
 
 // The rectangle of the target, in pixels, and the depth range that clip space is mapped to [S3]. Any finite values.
 struct Viewport {
@@ -122,10 +123,10 @@ enum class FrontFace : std::uint8_t { clockwise, counter_clockwise };  // as see
 enum class Cull : std::uint8_t { none, front, back };                  // which facing is not drawn [F2]
 enum class DepthTest : std::uint8_t { less, greater };                 // greater: reversed z [V1]
 enum class DepthMode : std::uint8_t { none, clip, clamp };             // what happens outside 0 <= z <= 1 [I5]
-enum class Interpolation : std::uint8_t { perspective, noperspective, flat };  // flat: the value of vertex 0 [I2]
-enum class AttributeLocation : std::uint8_t { centre, centroid };              // of a pixel with several samples [M1]
-enum class Conservative : std::uint8_t { none, over, inner };                  // [M4]
-enum class GridRounding : std::uint8_t { nearest_even, nearest_up, truncate };
+enum class Interpolation : std::uint8_t { perspective, noperspective, flat };   // flat: the value of vertex 0 [I2]
+enum class AttributeLocation : std::uint8_t { centre, centroid };               // of a pixel with several samples [M1]
+enum class Conservative : std::uint8_t { none, over, inner };                   // [M4]
+enum class GridRounding : std::uint8_t { nearest_even, nearest_up, truncate };  // of a position to the grid
 
 // Half-open pixel rectangle [x0, x1) x [y0, y1); any values, empty where x0 >= x1 or y0 >= y1 [M3].
 struct Scissor {
@@ -216,8 +217,9 @@ enum class Path : std::uint8_t {
   reference,  // the scalar reference path, on one thread
 };
 
-inline constexpr int kMaxThreads = 256;
+inline constexpr int kMaxThreads = 256;  // of one call
 
+// How a frame is drawn. The image does not depend on it.
 struct Options {
   int threads = 1;  // 1..kMaxThreads; if fewer can be started, fewer do the work
   Path path = Path::automatic;
@@ -234,10 +236,12 @@ SUREFILL_API Status render(const Target& target, std::span<const Draw> draws, St
 // Checks the arguments of render as render does, and draws nothing.
 SUREFILL_API Status validate(const Target& target, std::span<const Draw> draws) noexcept;
 
-// The offset of sample n of a pixel from the pixel's top left corner, in 1/16 pixel [S4]. n < samples.
+// A place within a pixel, from its top left corner, in 1/16 pixel.
 struct SampleLocation {
   int x, y;
 };
+
+// The offset of sample n of a pixel [S4]. 0 <= n < samples, else that of sample 0.
 SUREFILL_API SampleLocation sample_location(int samples, int n) noexcept;
 
 }  // namespace surefill

@@ -3,6 +3,7 @@
 #ifndef SUREFILL_VERSION_HPP
 #define SUREFILL_VERSION_HPP
 
+// "major.minor.patch"
 #define SUREFILL_VERSION "0.1.0"
 
 #endif  // SUREFILL_VERSION_HPP

@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: Apache-2.0
+import threading
+import unittest
+
+import numpy as np
+
+import surefill
+
+POSITIONS = np.array([[0, 0, 0.25, 1], [8, 0, 0.25, 1], [8, 8, 0.75, 1], [0, 8, 0.75, 1]], np.float32)
+TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]], np.int32)
+SIZE = (6, 8)
+
+
+class Pictures(unittest.TestCase):
+    def test_shapes_and_types(self):
+        for samples, shape in ((1, (6, 8)), (4, (6, 8, 4))):
+            raster = surefill.rasterize(POSITIONS, TRIANGLES, SIZE, samples=samples)
+            self.assertEqual((raster.index.shape, raster.index.dtype), (shape, np.uint32))
+            self.assertEqual((raster.depth.shape, raster.depth.dtype), (shape, np.float32))
+            self.assertEqual(raster.barycentrics.shape, shape + (3,))
+            self.assertEqual(surefill.interpolate(POSITIONS[:, :2].copy(), raster).shape, shape + (2,))
+            self.assertEqual(raster.packed().shape, shape + (4,))
+
+    def test_values_by_hand(self):
+        raster = surefill.rasterize(POSITIONS, TRIANGLES, SIZE)
+        # A sample on the diagonal belongs to the upper triangle, as its left edge.
+        x, y = np.meshgrid(np.arange(8), np.arange(6))
+        np.testing.assert_array_equal(raster.index, np.where(x >= y, 0, 1))
+        np.testing.assert_array_equal(raster.depth, (0.25 + (y + 0.5) / 16).astype(np.float32))
+        position = surefill.interpolate(np.ascontiguousarray(POSITIONS[:, :2]), raster)
+        np.testing.assert_array_equal(position[..., 0], (x + 0.5).astype(np.float32))
+        np.testing.assert_array_equal(position[..., 1], (y + 0.5).astype(np.float32))
+
+    def test_packed_is_nvdiffrasts_layout(self):
+        raster = surefill.rasterize(POSITIONS, TRIANGLES[:1], SIZE, identifiers=np.array([41], np.uint32))
+        packed = raster.packed()
+        np.testing.assert_array_equal(packed[0, 7], [raster.barycentrics[0, 7, 0], raster.barycentrics[0, 7, 1],
+                                                     raster.depth[0, 7], 42])
+        np.testing.assert_array_equal(packed[5, 0], [0, 0, 0, 0])
+        self.assertEqual(raster.index[5, 0], surefill.NO_TRIANGLE)
+        big = surefill.rasterize(POSITIONS, TRIANGLES[:1], SIZE, identifiers=np.array([1 << 24], np.uint32))
+        self.assertRaisesRegex(ValueError, "index", big.packed)
+
+    def test_options_matter(self):
+        def of(**options):
+            return surefill.rasterize(POSITIONS, TRIANGLES, SIZE, **options)
+
+        covered = of().index != surefill.NO_TRIANGLE
+        self.assertTrue(covered.all())
+        self.assertFalse((of(cull="front").index != surefill.NO_TRIANGLE).any())
+        self.assertTrue((of(cull="front", front_face="counter_clockwise").index != surefill.NO_TRIANGLE).all())
+        self.assertTrue((of(depth_test="greater").depth == of().depth).all())
+        np.testing.assert_array_equal(of(fill_rule="bottom_right").index[np.arange(6), np.arange(6)], 1)
+        near = np.full(SIZE, 0.5, np.float32)
+        beaten = of(initial_depth=near)
+        np.testing.assert_array_equal(beaten.index != surefill.NO_TRIANGLE, of().depth < 0.5)
+        np.testing.assert_array_equal(beaten.depth, np.minimum(of().depth, near))
+        np.testing.assert_array_equal(of(threads=3).barycentrics, of().barycentrics)
+
+    def test_interpolation_is_what_rasterize_saw(self):
+        w = np.array([[1], [2], [4], [0.5]], np.float32)
+        raster = surefill.rasterize(POSITIONS * w, TRIANGLES, SIZE)
+        for i in range(3):  # the unit vectors of triangle 0 give its barycentrics
+            unit = np.zeros((4, 1), np.float32)
+            unit[TRIANGLES[0, i]] = 1
+            of_triangle = raster.index == 0
+            np.testing.assert_array_equal(surefill.interpolate(unit, raster)[of_triangle, 0],
+                                          raster.barycentrics[of_triangle, i])
+        flat = surefill.interpolate(np.array([[5], [6], [7], [8]], np.float32), raster, interpolation="flat")
+        self.assertTrue((flat == 5).all())
+        affine = surefill.interpolate(POSITIONS[:, :1].copy(), raster, interpolation="noperspective")
+        np.testing.assert_array_equal(affine[..., 0], np.broadcast_to(np.arange(8) + np.float32(0.5), SIZE))
+
+    def test_coverage(self):
+        count = surefill.coverage(POSITIONS, np.concatenate([TRIANGLES, TRIANGLES[:1]]), SIZE)
+        x, y = np.meshgrid(np.arange(8), np.arange(6))
+        np.testing.assert_array_equal(count, np.where(x >= y, 2, 1))
+        over = surefill.coverage(POSITIONS, TRIANGLES[:1], SIZE, conservative="over")
+        # The closed triangle meets the square below the diagonal in its corner.
+        np.testing.assert_array_equal(over, np.where(x >= y - 1, 1, 0))
+        inner = surefill.coverage(POSITIONS, TRIANGLES[:1], SIZE, conservative="inner")
+        np.testing.assert_array_equal(inner, np.where(x > y, 1, 0))
+
+    def test_to_pixel(self):
+        clip = np.array([[-1, 1, 0.5, 1], [1, -1, 0, 2], [0, 0, -3, -1]], np.float32)
+        pixel = surefill.to_pixel(clip, (4, 8))
+        np.testing.assert_array_equal(pixel, np.array([[0, 0, 0.5, 1], [12, 6, 0, 2], [-4, -2, -3, -1]], np.float32))
+        down = surefill.to_pixel(clip, (4, 8), clip_y="down", clip_depth="minus_one_to_one")
+        np.testing.assert_array_equal(down[0], [0, 4, 0.75, 1])
+
+    def test_a_nan_drops_a_triangle(self):
+        positions = POSITIONS.copy()
+        positions[1, 0] = np.nan
+        self.assertEqual(set(surefill.rasterize(positions, TRIANGLES, SIZE).index.ravel()), {1, surefill.NO_TRIANGLE})
+
+    def test_nothing_is_copied_and_threads_run(self):
+        # A view of a larger array, where it lies.
+        block = np.zeros((10, 4), np.float32)
+        block[3:7] = POSITIONS
+        np.testing.assert_array_equal(surefill.rasterize(block[3:7], TRIANGLES, SIZE).depth,
+                                      surefill.rasterize(POSITIONS, TRIANGLES, SIZE).depth)
+        # The GIL is released: this thread counts on while another draws.
+        many = np.tile(TRIANGLES, (150, 1))
+        done = threading.Event()
+
+        def draw():
+            surefill.rasterize(POSITIONS * np.float32([256, 256, 1, 1]), many, (2048, 2048))
+            done.set()
+
+        worker = threading.Thread(target=draw)
+        worker.start()
+        steps = 0
+        while not done.wait(0.001):
+            steps += 1
+        worker.join()
+        self.assertGreater(steps, 5)
+
+
+class WrongCalls(unittest.TestCase):
+    """Each raises an exception that names the argument."""
+
+    def wrong(self, error, name, function, *arguments, **options):
+        self.assertRaisesRegex(error, f"^{name}: ", function, *arguments, **options)
+
+    def test_rasterize(self):
+        def call(error, name, positions=POSITIONS, triangles=TRIANGLES, size=SIZE, **options):
+            self.wrong(error, name, surefill.rasterize, positions, triangles, size, **options)
+
+        call(TypeError, "positions", positions=None)
+        call(TypeError, "positions", positions=POSITIONS.tolist())
+        call(TypeError, "positions", positions=POSITIONS.astype(np.float64))
+        call(ValueError, "positions", positions=POSITIONS[:, :3].copy())
+        call(ValueError, "positions", positions=np.asfortranarray(POSITIONS))
+        call(ValueError, "positions", positions=POSITIONS[::2])
+        call(TypeError, "positions", positions=POSITIONS.astype(">f4"))
+        call(TypeError, "triangles", triangles=TRIANGLES.astype(np.int64))
+        call(TypeError, "triangles", triangles=TRIANGLES.astype(np.float32))
+        call(ValueError, "triangles", triangles=TRIANGLES.ravel())
+        call(IndexError, "triangles", triangles=TRIANGLES + np.int32(2))
+        call(IndexError, "triangles", triangles=TRIANGLES - np.int32(1))
+        call(TypeError, "size", size=6)
+        call(TypeError, "size", size=(6.0, 8))
+        call(ValueError, "size", size=(-6, 8))
+        call(ValueError, "size", size=(0, 8))
+        call(ValueError, "size", size=(6, 16385))
+        call(ValueError, "samples", samples=3)
+        call(TypeError, "samples", samples="4")
+        call(ValueError, "identifiers", identifiers=np.arange(3, dtype=np.uint32))
+        call(TypeError, "identifiers", identifiers=[1, 2])
+        call(ValueError, "initial_depth", initial_depth=np.zeros((8, 6), np.float32))
+        call(ValueError, "fill_rule", fill_rule="left")
+        call(ValueError, "front_face", front_face=None)
+        call(ValueError, "cull", cull="both")
+        call(ValueError, "depth_test", depth_test="equal")
+        call(ValueError, "depth_mode", depth_mode=1)
+        call(ValueError, "threads", threads=0)
+
+    def test_interpolate(self):
+        raster = surefill.rasterize(POSITIONS, TRIANGLES, SIZE)
+        self.wrong(TypeError, "raster", surefill.interpolate, POSITIONS, raster.index)
+        self.wrong(TypeError, "attributes", surefill.interpolate, None, raster)
+        self.wrong(ValueError, "attributes", surefill.interpolate, POSITIONS[:3], raster)
+        self.wrong(ValueError, "attributes", surefill.interpolate, np.zeros((4, 5), np.float32), raster)
+        self.wrong(ValueError, "attributes", surefill.interpolate, np.zeros((4, 0), np.float32), raster)
+        self.wrong(ValueError, "attributes", surefill.interpolate, np.zeros(4, np.float32), raster)
+        self.wrong(ValueError, "interpolation", surefill.interpolate, POSITIONS, raster, interpolation="cubic")
+
+    def test_coverage_and_to_pixel(self):
+        self.wrong(ValueError, "conservative", surefill.coverage, POSITIONS, TRIANGLES, SIZE, conservative="yes")
+        self.wrong(ValueError, "conservative", surefill.coverage, POSITIONS, TRIANGLES, SIZE, conservative="over",
+                   samples=4)
+        self.wrong(TypeError, "clip", surefill.to_pixel, POSITIONS.astype(np.float16), SIZE)
+        self.wrong(TypeError, "depth_range", surefill.to_pixel, POSITIONS, SIZE, depth_range=1)
+        self.wrong(ValueError, "depth_range", surefill.to_pixel, POSITIONS, SIZE, depth_range=(0, float("nan")))
+        self.wrong(ValueError, "clip_y", surefill.to_pixel, POSITIONS, SIZE, clip_y="left")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -257,7 +257,7 @@ class Strip {
     const std::size_t s = place(x, y, n);
     const Point p = sample_point(target_.samples, n, x, y);
     if (!visibility_asked_) {
-      if (depth.keeps(p, draw.depth_mode)) ++target_.count[first_ + s];
+      if (!target_.count.empty() && depth.keeps(p, draw.depth_mode)) ++target_.count[first_ + s];
       return;
     }
     const std::optional<float> z = depth.at(p, draw.depth_mode);

@@ -202,6 +202,7 @@ class Strip {
 
   void render_triangle(std::uint32_t number, std::size_t t) {
     const Draw& draw = draws_[number];
+    if (target_.count.empty() && !visibility_asked_) return;  // nothing is asked for
     const Shape shape(draw, t);
     if (shape.cone() && (shape.cone()->sign_of_det() == 0 || is_culled(draw, shape.cone()->sign_of_det()))) return;
     Rect rect = intersect(rows_, shape.bounds(target_.width, target_.height));
@@ -257,7 +258,7 @@ class Strip {
     const std::size_t s = place(x, y, n);
     const Point p = sample_point(target_.samples, n, x, y);
     if (!visibility_asked_) {
-      if (!target_.count.empty() && depth.keeps(p, draw.depth_mode)) ++target_.count[first_ + s];
+      if (depth.keeps(p, draw.depth_mode)) ++target_.count[first_ + s];
       return;
     }
     const std::optional<float> z = depth.at(p, draw.depth_mode);

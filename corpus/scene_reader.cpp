@@ -12,6 +12,7 @@
 
 #include "corpus/names.hpp"
 #include "corpus/scene.hpp"
+#include "engine/src/planted.hpp"
 
 namespace surefill::corpus {
 namespace {
@@ -218,7 +219,7 @@ class Reader {
 
   std::uint32_t vertex_number(std::string_view field) const {
     const auto number = integer<std::uint32_t>(field, 0, std::numeric_limits<std::uint32_t>::max());
-    if (number >= draw().vertices.size()) {
+    if (number >= draw().vertices.size() + (SUREFILL_PLANT(reader_bounds) ? 1 : 0)) {
       fail("no vertex " + std::to_string(number) + ": " + std::to_string(draw().vertices.size()) +
            " vertices stand above this line");
     }

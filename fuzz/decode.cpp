@@ -43,8 +43,9 @@ std::uint32_t bits(Enum value, int shift) {
   return static_cast<std::uint32_t>(value) << shift;
 }
 
-// Size and samples.
-void set_size(Scene& scene, std::uint32_t size, std::uint32_t log2_samples) {
+// Size and samples of a scene or a triangle.
+template <typename Frame>
+void set_size(Frame& scene, std::uint32_t size, std::uint32_t log2_samples) {
   const auto side = static_cast<std::uint32_t>(kMaxSide[log2_samples]);
   scene.samples = 1 << log2_samples;
   scene.width = static_cast<int>(1 + (size & 15u) % side);
@@ -67,7 +68,8 @@ std::uint32_t log2_samples(const Scene& scene) {
 }
 
 // Fill rule, front face, culling and depth mode.
-void set_state(SceneDraw& draw, std::uint32_t byte) {
+template <typename State>
+void set_state(State& draw, std::uint32_t byte) {
   draw.fill_rule = field<FillRule>(byte, 0, 8);
   draw.front_face = field<FrontFace>(byte, 3, 2);
   draw.cull = field<Cull>(byte, 4, 3);
@@ -106,6 +108,22 @@ std::optional<std::uint32_t> edge_byte(int edge) {
   if (edge == std::numeric_limits<int>::min()) return 0x80u;
   if (edge < -kLargestEdge || edge > kLargestEdge) return std::nullopt;
   return static_cast<std::uint8_t>(edge);
+}
+
+Grid decode_grid(ByteReader& in) {
+  Grid grid;
+  grid.bits = static_cast<int>(in.below(13));
+  const std::uint32_t offsets = in.byte();
+  grid.offset_x = static_cast<int>(offsets & 15u);
+  grid.offset_y = static_cast<int>(offsets >> 4);
+  grid.rounding = static_cast<GridRounding>(in.below(3));
+  return grid;
+}
+
+void encode_grid(ByteWriter& out, const Grid& grid) {
+  out.byte(static_cast<std::uint32_t>(grid.bits));
+  out.byte(static_cast<std::uint32_t>(grid.offset_x) | static_cast<std::uint32_t>(grid.offset_y) << 4);
+  out.byte(bits(grid.rounding, 0));
 }
 
 // The vertices in turn, or none: a box of clip coordinates, or of more than eight vertices, is not that of the draw.
@@ -157,12 +175,7 @@ SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
     for (int* edge : {&scissor.x0, &scissor.y0, &scissor.x1, &scissor.y1}) *edge = edge_of(in.byte());
   }
   if ((flags & kHasGrid) != 0 && draw.conservative == Conservative::none) {
-    Grid& grid = draw.grid.emplace();
-    grid.bits = static_cast<int>(in.below(13));
-    const std::uint32_t offsets = in.byte();
-    grid.offset_x = static_cast<int>(offsets & 15u);
-    grid.offset_y = static_cast<int>(offsets >> 4);
-    grid.rounding = static_cast<GridRounding>(in.below(3));
+    draw.grid = decode_grid(in);
   }
   if ((flags & kHasFirstIndex) != 0) draw.first_index = std::min(in.word(), kNoTriangle - triangles);
   for (SceneVertex& vertex : draw.vertices) {
@@ -229,9 +242,7 @@ bool encode_draw(ByteWriter& out, const SceneDraw& draw) {
     }
   }
   if (draw.grid) {
-    out.byte(static_cast<std::uint32_t>(draw.grid->bits));
-    out.byte(static_cast<std::uint32_t>(draw.grid->offset_x) | static_cast<std::uint32_t>(draw.grid->offset_y) << 4);
-    out.byte(bits(draw.grid->rounding, 0));
+    encode_grid(out, *draw.grid);
   }
   if (draw.first_index) out.word(*draw.first_index);
   for (const SceneVertex& vertex : draw.vertices) {
@@ -257,37 +268,65 @@ float ByteReader::real() {
   return std::bit_cast<float>(word());
 }
 
-Scene decode_triangle(std::span<const std::uint8_t> bytes) {
+OneTriangle decode_one(std::span<const std::uint8_t> bytes, bool with_grid) {
   ByteReader in(bytes);
-  Scene scene;
-  SceneDraw& draw = scene.draws.emplace_back();
-  draw.vertices.resize(3);
-  draw.triangles.push_back({{0, 1, 2}, {}});
-  for (SceneVertex& vertex : draw.vertices) {
+  OneTriangle triangle;
+  for (Vertex& vertex : triangle.vertices) {
     for (float* number : {&vertex.x, &vertex.y, &vertex.z, &vertex.w}) *number = in.real();
   }
-  const std::uint32_t size = in.byte();
-  set_state(draw, in.byte());
-  const std::uint32_t frame = in.byte();
-  set_size(scene, size, (frame & 7u) % 5u);
-  scene.depth_test = field<DepthTest>(frame, 3, 2);
-  scene.attribute_location = field<AttributeLocation>(frame, 4, 2);
+  const std::uint32_t size = in.byte(), state = in.byte(), frame = in.byte();
+  set_size(triangle, size, (frame & 7u) % 5u);
+  set_state(triangle, state);
+  triangle.depth_test = field<DepthTest>(frame, 3, 2);
+  triangle.attribute_location = field<AttributeLocation>(frame, 4, 2);
   const std::uint32_t interpolation = (frame >> 5) & 3u;
-  if (interpolation < 3) {
-    scene.attributes.push_back({attribute_name(0), 1, static_cast<Interpolation>(interpolation)});
-    for (SceneVertex& vertex : draw.vertices) vertex.attributes.push_back(in.real());
+  if (interpolation < 3) triangle.interpolation = static_cast<Interpolation>(interpolation);
+  for (float& value : triangle.attribute) value = in.real();
+  if (with_grid) triangle.grid = decode_grid(in);
+  return triangle;
+}
+
+Scene scene_of(const OneTriangle& triangle) {
+  Scene scene;
+  scene.width = triangle.width;
+  scene.height = triangle.height;
+  scene.samples = triangle.samples;
+  scene.depth_test = triangle.depth_test;
+  scene.attribute_location = triangle.attribute_location;
+  if (triangle.interpolation) scene.attributes.push_back({attribute_name(0), 1, *triangle.interpolation});
+  SceneDraw& draw = scene.draws.emplace_back();
+  draw.fill_rule = triangle.fill_rule;
+  draw.front_face = triangle.front_face;
+  draw.cull = triangle.cull;
+  draw.depth_mode = triangle.depth_mode;
+  draw.grid = triangle.grid;
+  draw.triangles.push_back({{0, 1, 2}, {}});
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Vertex& v = triangle.vertices[i];
+    SceneVertex& vertex = draw.vertices.emplace_back(SceneVertex{v.x, v.y, v.z, v.w, {}});
+    if (triangle.interpolation) vertex.attributes.push_back(triangle.attribute[i]);
   }
   return scene;
 }
 
-std::optional<Bytes> encode_triangle(const Scene& scene) {
+Scene decode_triangle(std::span<const std::uint8_t> bytes) {
+  return scene_of(decode_one(bytes, false));
+}
+
+Scene decode_grid_triangle(std::span<const std::uint8_t> bytes) {
+  return scene_of(decode_one(bytes, true));
+}
+
+namespace {
+
+std::optional<Bytes> encode_one(const Scene& scene, bool with_grid) {
   if (!size_fits(scene) || scene.draws.size() != 1 || !scene.initial_depth.empty()) return std::nullopt;
   if (scene.attributes.size() > 1 || component_total(scene) > 1) return std::nullopt;
   const SceneDraw& draw = scene.draws[0];
   if (draw.vertices.size() != 3 || draw.triangles.size() != 1 || !draw.points.empty() || !draw.lines.empty() ||
       draw.triangles[0].vertices != std::array<std::uint32_t, 3>{0, 1, 2} || draw.triangles[0].identifier ||
       draw.viewport || draw.first_index || !draw.depth_write || draw.conservative != Conservative::none ||
-      draw.scissor || draw.grid || draw.culling_box) {
+      draw.scissor || draw.grid.has_value() != with_grid || draw.culling_box) {
     return std::nullopt;
   }
   ByteWriter out;
@@ -300,7 +339,18 @@ std::optional<Bytes> encode_triangle(const Scene& scene) {
   out.byte(state_byte(draw));
   out.byte(log2_samples(scene) | bits(scene.depth_test, 3) | bits(scene.attribute_location, 4) | interpolation << 5);
   for (const SceneVertex& vertex : draw.vertices) out.real(scene.attributes.empty() ? 0.0f : vertex.attributes[0]);
+  if (with_grid) encode_grid(out, *draw.grid);
   return out.take();
+}
+
+}  // namespace
+
+std::optional<Bytes> encode_triangle(const Scene& scene) {
+  return encode_one(scene, false);
+}
+
+std::optional<Bytes> encode_grid_triangle(const Scene& scene) {
+  return encode_one(scene, true);
 }
 
 Scene decode_scene(std::span<const std::uint8_t> bytes) {
@@ -348,6 +398,53 @@ std::optional<Bytes> encode_scene(const Scene& scene) {
   return out.take();
 }
 
+Scene decode_samples(std::span<const std::uint8_t> bytes) {
+  constexpr std::uint8_t kSamplesMask = 7, kFourSamples = 2;
+  Bytes several(bytes.begin(), bytes.end());
+  several.resize(std::max<std::size_t>(several.size(), 2));
+  if ((several[1] & kSamplesMask) % 5 == 0) {
+    several[1] = static_cast<std::uint8_t>((several[1] & ~kSamplesMask) | kFourSamples);
+  }
+  return decode_scene(several);
+}
+
+std::optional<Bytes> encode_samples(const Scene& scene) {
+  return scene.samples > 1 ? encode_scene(scene) : std::nullopt;
+}
+
+Scene decode_paths(std::span<const std::uint8_t> bytes) {
+  const std::uint32_t sides = bytes.empty() ? 0u : bytes[0];
+  Bytes rest(bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kPathPrefix)), bytes.end());
+  if (rest.size() > 1) rest[1] = static_cast<std::uint8_t>(rest[1] & ~7u);
+  Scene scene = decode_scene(rest);
+  scene.width = kPathSides[sides & 7u];
+  scene.height = kPathSides[sides >> 3 & 7u];
+  if (scene.initial_depth.size() > 1)
+    scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
+  for (SceneDraw& draw : scene.draws) {
+    draw.grid.reset();
+    draw.conservative = Conservative::none;
+    draw.depth_write = true;
+  }
+  return scene;
+}
+
+std::optional<Bytes> encode_paths(const Scene& scene) {
+  const auto side_number = [](int side) {
+    return static_cast<std::uint32_t>(std::find(std::begin(kPathSides), std::end(kPathSides), side) - kPathSides);
+  };
+  const std::uint32_t width = side_number(scene.width), height = side_number(scene.height);
+  if (width > 7 || height > 7 || scene.samples != 1 || scene.initial_depth.size() > 1) return std::nullopt;
+  for (const SceneDraw& draw : scene.draws) {
+    if (draw.grid || draw.conservative != Conservative::none || !draw.depth_write) return std::nullopt;
+  }
+  Scene inner = scene;
+  inner.width = inner.height = 1;
+  std::optional<Bytes> bytes = encode_scene(inner);
+  if (bytes) bytes->insert(bytes->begin(), {static_cast<std::uint8_t>(width | height << 3), 0, 0});
+  return bytes;
+}
+
 std::vector<Scene> single_triangles(const Scene& scene) {
   std::vector<Scene> singles;
   if (scene.samples < 1 || scene.samples > 16) return singles;
@@ -367,6 +464,7 @@ std::vector<Scene> single_triangles(const Scene& scene) {
       own.front_face = draw.front_face;
       own.cull = draw.cull;
       own.depth_mode = draw.depth_mode;
+      own.grid = draw.grid;
       own.triangles.push_back({{0, 1, 2}, {}});
       for (const std::uint32_t v : triangle.vertices) {
         const SceneVertex& from = draw.vertices[v];

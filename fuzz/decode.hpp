@@ -6,6 +6,7 @@
 #ifndef SUREFILL_FUZZ_DECODE_HPP
 #define SUREFILL_FUZZ_DECODE_HPP
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -42,11 +43,34 @@ inline constexpr int kMaxSide[] = {16, 11, 8, 5, 4};
 //   49     bits 0-2 fill rule, 3 front face, 4-5 culling, 6-7 depth mode (3 is none)
 //   50     bits 0-2 log2(samples) modulo 5, 3 depth test, 4 attribute location, 5-6 interpolation (3: no attribute)
 //   51..62 the attribute at the vertices 0, 1, 2; raw bits
-inline constexpr std::size_t kTriangleBytes = 63;
+// and under Grid also
+//   63     bits modulo 13
+//   64     offset_x (low four bits) and offset_y
+//   65     rounding modulo 3
+inline constexpr std::size_t kTriangleBytes = 63, kGridTriangleBytes = 66;
 corpus::Scene decode_triangle(std::span<const std::uint8_t> bytes);
+corpus::Scene decode_grid_triangle(std::span<const std::uint8_t> bytes);
 
 // One draw of one triangle with the vertices 0 1 2 and no state beyond the above; else none.
 std::optional<Bytes> encode_triangle(const corpus::Scene& scene);
+std::optional<Bytes> encode_grid_triangle(const corpus::Scene& scene);
+
+// The same without heap, which under the address sanitizer costs more than the oracle.
+struct OneTriangle {
+  std::array<Vertex, 3> vertices{};
+  std::array<float, 3> attribute{};
+  std::optional<Interpolation> interpolation;  // none: no attribute
+  int width = 1, height = 1, samples = 1;
+  FillRule fill_rule{};
+  FrontFace front_face{};
+  Cull cull{};
+  DepthMode depth_mode{};
+  DepthTest depth_test{};
+  AttributeLocation attribute_location{};
+  std::optional<Grid> grid;
+};
+OneTriangle decode_one(std::span<const std::uint8_t> bytes, bool with_grid);
+corpus::Scene scene_of(const OneTriangle& triangle);
 
 // Several draws of indexed triangles with every state of the format. Points and lines have no place in it. Attributes
 // are named "a0", "a1", ...; other names, and the comment, are lost. A culling box is one whose corners are the draw's
@@ -58,8 +82,23 @@ corpus::Scene decode_scene(std::span<const std::uint8_t> bytes);
 // that is neither in -126..126 nor the least or largest int.
 std::optional<Bytes> encode_scene(const corpus::Scene& scene);
 
-// The triangles of a scene, each as a scene that encode_triangle takes: mapped through the viewport, the target cropped
-// to the largest size, the first component of the first attribute kept.
+// The same form with two samples a pixel or more: where it says one there are four.
+corpus::Scene decode_samples(std::span<const std::uint8_t> bytes);
+std::optional<Bytes> encode_samples(const corpus::Scene& scene);
+
+// Frames that the fast path draws, on targets of several tiles and bins, and how it draws them:
+//   0  bits 0-2 width, 3-5 height: kPathSides of them
+//   1  bits 0-3 the instruction set, by its number among those of this machine, 4-5 threads: 1, 2, 3 or 8
+//   2  bits 0-4: no count, index, depth, barycentrics, attributes
+//   3  a scene; its size, samples, grid, conservative mode, depth write and all of its initial depths but one are
+//   ignored
+inline constexpr int kPathSides[8] = {16, 8, 20, 63, 65, 129, 136, 260};
+inline constexpr std::size_t kPathPrefix = 3;
+corpus::Scene decode_paths(std::span<const std::uint8_t> bytes);
+std::optional<Bytes> encode_paths(const corpus::Scene& scene);  // bytes 1 and 2 are 0
+
+// The triangles of a scene, each as a scene that encode_triangle or, under Grid, encode_grid_triangle takes: mapped
+// through the viewport, the target cropped to the largest size, the first component of the first attribute kept.
 std::vector<corpus::Scene> single_triangles(const corpus::Scene& scene);
 
 }  // namespace surefill::fuzz

@@ -221,8 +221,8 @@ TEST(Mutate, IsAFunctionOfItsSeedAndKeepsToTheSize) {
     const std::size_t size = first.size(), max_size = size + random.below(64);
     first.resize(max_size + 1, 0xA5);
     Bytes second = first;
-    const std::size_t one = mutate_scene_bytes(first.data(), size, max_size, seed);
-    const std::size_t two = mutate_scene_bytes(second.data(), size, max_size, seed);
+    const std::size_t one = mutate_bytes(scene_form, first.data(), size, max_size, seed);
+    const std::size_t two = mutate_bytes(scene_form, second.data(), size, max_size, seed);
     ASSERT_EQ(one, two);
     ASSERT_LE(one, max_size);
     ASSERT_EQ(first.back(), 0xA5);

@@ -9,7 +9,17 @@
 #include <cstdlib>
 #include <string>
 
+#include "corpus/scene.hpp"
+
 namespace surefill::fuzz {
+
+// Findings become scenes: with SUREFILL_FUZZ_SCENE=FILE in the environment, the scene of the input goes there before
+// the engine sees it, so that a crash has its scene, too. `scene` makes it.
+template <typename MakeScene>
+void note_scene(MakeScene scene) {
+  static const char* const file = std::getenv("SUREFILL_FUZZ_SCENE");
+  if (file != nullptr) corpus::write_scene_file(scene(), file);
+}
 
 [[noreturn]] inline void report_finding(const char* target, const std::string& relation, const std::string& text = {}) {
   std::fprintf(stderr, "\n%s: %s\n", target, relation.c_str());

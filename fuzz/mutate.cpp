@@ -4,9 +4,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <tuple>
 #include <utility>
+
+// libFuzzer's own mutator; AFL++ has none.
+extern "C" [[gnu::weak]] std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
 namespace surefill::fuzz {
 namespace {
@@ -21,6 +25,10 @@ using properties::Random;
 float rounded(double value) {
   constexpr double kBeyond = 0x1p128;
   return static_cast<float>(std::clamp(value, -kBeyond, kBeyond));
+}
+
+SceneDraw& any_draw(Scene& scene, Random& random) {
+  return scene.draws[random.below(static_cast<std::uint32_t>(scene.draws.size()))];
 }
 
 SceneVertex& any_vertex(SceneDraw& draw, Random& random) {
@@ -167,13 +175,14 @@ void swap_order(Scene&, SceneDraw& draw, Random& random) {
   std::swap(any_vertex(draw, random), any_vertex(draw, random));
 }
 
-// A border of a block (8), a tile (64) or the target.
+// A border of a block (8), a tile (64), the target or the guard band.
 void align_to_border(Scene& scene, SceneDraw& draw, Random& random) {
   SceneVertex& v = any_vertex(draw, random);
   const bool along_x = random.one_in(2);
+  const int guard_band = kMaxTargetSize + 1;  // of G1
   const int borders[] = {8 * random.between(-1, 2), 64 * random.between(-1, 2), along_x ? scene.width : scene.height,
-                         0};
-  const double border = borders[random.below(4)];
+                         random.one_in(2) ? guard_band : -guard_band, 0};
+  const double border = borders[random.below(5)];
   (along_x ? v.x : v.y) = rounded(border * static_cast<double>(v.w));
 }
 
@@ -226,6 +235,33 @@ void set_values(Scene&, SceneDraw& draw, Random& random) {
   v.attributes[c] = values[random.below(6)];
 }
 
+// Another grid, or a coordinate on it, halfway between two of its lines, or one ulp beside.
+void use_grid(Scene&, SceneDraw& draw, Random& random) {
+  if (!draw.grid) return;
+  Grid& grid = *draw.grid;
+  switch (random.below(4)) {
+    case 0:
+      grid.bits = random.between(0, 12);
+      break;
+    case 1:
+      grid.offset_x = random.between(0, 15), grid.offset_y = random.between(0, 15);
+      break;
+    case 2:
+      grid.rounding = static_cast<GridRounding>(random.below(3));
+      break;
+    default: {
+      SceneVertex& v = any_vertex(draw, random);
+      const bool along_x = random.one_in(2);
+      const double unit = std::ldexp(1.0, -grid.bits), offset = (along_x ? grid.offset_x : grid.offset_y) * unit / 16;
+      float& coordinate = along_x ? v.x : v.y;
+      if (random.one_in(2)) v.w = rounded(any_power_of_two(random, 3));
+      const double steps = std::floor(random.unit() * 32 / unit) + (random.one_in(2) ? 0.5 : 0);
+      coordinate = rounded((offset + steps * unit) * static_cast<double>(v.w));
+      if (random.one_in(4)) coordinate = std::nextafter(coordinate, random.one_in(2) ? HUGE_VALF : -HUGE_VALF);
+    }
+  }
+}
+
 using Mutation = void (*)(Scene&, SceneDraw&, Random&);
 constexpr Mutation kMutations[] = {
     vertex_on_sample,
@@ -246,6 +282,8 @@ constexpr Mutation kMutations[] = {
     move_into_view,
     move_into_view,
     set_values,
+    use_grid,
+    use_grid,
 };
 
 // A culling box must go on holding the draw (M6): its corners are the vertices in turn.
@@ -257,41 +295,102 @@ void renew_culling_box(SceneDraw& draw) {
   }
 }
 
-using Decode = Scene (*)(std::span<const std::uint8_t>);
-using Encode = std::optional<Bytes> (*)(const Scene&);
+bool plain() {
+  static const bool is_plain = std::getenv("SUREFILL_FUZZ_PLAIN") != nullptr;
+  return is_plain;
+}
 
-// `tail`: bytes from this position on are not part of the form.
-std::size_t mutate_bytes(Decode decode, Encode encode, std::size_t tail, std::uint8_t* data, std::size_t size,
-                         std::size_t max_size, unsigned seed) {
-  Random random(seed);
-  if (random.one_in(2)) return LLVMFuzzerMutate(data, size, max_size);
-  Scene scene = decode({data, size});
-  mutate(scene, random);
-  std::optional<Bytes> bytes = encode(scene);
-  if (!bytes) return LLVMFuzzerMutate(data, size, max_size);
-  if (size > tail) bytes->insert(bytes->end(), data + tail, data + size);
-  const std::size_t new_size = std::min(bytes->size(), max_size);
-  std::memcpy(data, bytes->data(), new_size);
-  return new_size;
+// Without a fuzzer that brings one: a byte changed.
+std::size_t mutate_plainly(std::uint8_t* data, std::size_t size, std::size_t max_size, Random& random) {
+  if (LLVMFuzzerMutate != nullptr) return LLVMFuzzerMutate(data, size, max_size);
+  if (size == 0) return 0;
+  data[random.below(static_cast<std::uint32_t>(size))] = static_cast<std::uint8_t>(random.bits());
+  return size;
+}
+
+// The bytes of a scene, followed by what in `old` came after its form.
+std::optional<Bytes> bytes_of(const Form& form, const Scene& scene, std::span<const std::uint8_t> old) {
+  std::optional<Bytes> bytes = form.encode(scene);
+  if (bytes && old.size() > form.size)
+    bytes->insert(bytes->end(), old.begin() + static_cast<std::ptrdiff_t>(form.size), old.end());
+  for (std::size_t i = form.kept_begin; bytes && i < std::min(form.kept_end, old.size()); ++i) (*bytes)[i] = old[i];
+  return bytes;
+}
+
+std::size_t store(std::span<const std::uint8_t> bytes, std::span<std::uint8_t> out) {
+  const std::size_t size = std::min(bytes.size(), out.size());
+  if (size != 0) std::memmove(out.data(), bytes.data(), size);
+  return size;
 }
 
 }  // namespace
 
 void mutate(Scene& scene, Random& random) {
   for (int rounds = 1 + static_cast<int>(random.below(3)); rounds > 0; --rounds) {
-    SceneDraw& draw = scene.draws[random.below(static_cast<std::uint32_t>(scene.draws.size()))];
+    SceneDraw& draw = any_draw(scene, random);
     if (draw.vertices.empty()) continue;
     kMutations[random.below(std::size(kMutations))](scene, draw, random);
     renew_culling_box(draw);
   }
 }
 
-std::size_t mutate_triangle_bytes(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
-  return mutate_bytes(decode_triangle, encode_triangle, kTriangleBytes, data, size, max_size, seed);
+void cross(Scene& scene, const Scene& other, Random& random) {
+  SceneDraw& draw = any_draw(scene, random);
+  const SceneDraw& from = other.draws[random.below(static_cast<std::uint32_t>(other.draws.size()))];
+  const auto copy = [](const SceneVertex& source, SceneVertex& to) {
+    std::tie(to.x, to.y, to.z, to.w) = std::tie(source.x, source.y, source.z, source.w);
+  };
+  if (!draw.vertices.empty() && !from.vertices.empty()) {
+    const auto any_of_other = [&] {
+      return from.vertices[random.below(static_cast<std::uint32_t>(from.vertices.size()))];
+    };
+    switch (random.below(4)) {
+      case 0:
+        copy(any_of_other(), any_vertex(draw, random));
+        break;
+      case 1: {  // an edge in common
+        const Corners c = any_corners(draw, random);
+        copy(any_of_other(), draw.vertices[c.i]);
+        copy(any_of_other(), draw.vertices[c.j]);
+        break;
+      }
+      case 2:  // the geometry of one, the state of the other
+        for (std::size_t i = 0; i < std::min(draw.vertices.size(), from.vertices.size()); ++i)
+          copy(from.vertices[i], draw.vertices[i]);
+        break;
+      default:
+        draw.fill_rule = from.fill_rule, draw.front_face = from.front_face, draw.cull = from.cull;
+        if (draw.conservative == Conservative::none) draw.depth_mode = from.depth_mode;
+        if (draw.grid && from.grid) draw.grid = from.grid;
+        scene.depth_test = other.depth_test;
+    }
+  }
+  renew_culling_box(draw);
 }
 
-std::size_t mutate_scene_bytes(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
-  return mutate_bytes(decode_scene, encode_scene, max_size, data, size, max_size, seed);
+std::size_t mutate_bytes(const Form& form, std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed) {
+  Random random(seed);
+  if (plain() || random.one_in(2)) return mutate_plainly(data, size, max_size, random);
+  const std::span<const std::uint8_t> old(data, size);
+  Scene scene = form.decode(old);
+  mutate(scene, random);
+  const std::optional<Bytes> bytes = bytes_of(form, scene, old);
+  return bytes ? store(*bytes, {data, max_size}) : mutate_plainly(data, size, max_size, random);
+}
+
+std::size_t cross_bytes(const Form& form, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
+                        std::span<std::uint8_t> out, unsigned seed) {
+  Random random(seed);
+  if (!plain() && !random.one_in(4)) {
+    Scene scene = form.decode(a);
+    cross(scene, form.decode(b), random);
+    if (const std::optional<Bytes> bytes = bytes_of(form, scene, a)) return store(*bytes, out);
+  }
+  // The head of one, the tail of the other.
+  Bytes joined(a.begin(), a.begin() + static_cast<std::ptrdiff_t>(random.bits() % (a.size() + 1)));
+  if (joined.size() < b.size())
+    joined.insert(joined.end(), b.begin() + static_cast<std::ptrdiff_t>(joined.size()), b.end());
+  return store(joined, out);
 }
 
 }  // namespace surefill::fuzz

@@ -6,23 +6,53 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+#include <span>
 
 #include "corpus/scene.hpp"
 #include "fuzz/decode.hpp"
 #include "properties/generators.hpp"
-
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
 namespace surefill::fuzz {
 
 // One to a few coincidences in the vertices, triangles or state of a scene. The scene stays one that its form encodes.
 void mutate(corpus::Scene& scene, properties::Random& random);
 
-// Bodies of LLVMFuzzerCustomMutator: half of the time a mutation of the scene, else LLVMFuzzerMutate on the bytes.
-// Bytes after the form of a triangle are kept.
-std::size_t mutate_triangle_bytes(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed);
-std::size_t mutate_scene_bytes(std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed);
+// A scene with something of another: vertices, an edge in common, a draw, state, or the frame.
+void cross(corpus::Scene& scene, const corpus::Scene& other, properties::Random& random);
+
+// A form of scenes. Bytes from `size` on are no part of it and are kept, and so are those from `kept_begin` to
+// `kept_end`.
+struct Form {
+  corpus::Scene (*decode)(std::span<const std::uint8_t>);
+  std::optional<Bytes> (*encode)(const corpus::Scene&);
+  std::size_t size;
+  std::size_t kept_begin = 0, kept_end = 0;
+};
+inline constexpr Form triangle_form{decode_triangle, encode_triangle, kTriangleBytes};
+inline constexpr Form grid_triangle_form{decode_grid_triangle, encode_grid_triangle, kGridTriangleBytes};
+inline constexpr Form scene_form{decode_scene, encode_scene, SIZE_MAX};
+inline constexpr Form samples_form{decode_samples, encode_samples, SIZE_MAX};
+inline constexpr Form paths_form{decode_paths, encode_paths, SIZE_MAX, 1, 3};
+
+// Bodies of LLVMFuzzerCustomMutator and LLVMFuzzerCustomCrossOver: half of the time by the scene, else by bytes. With
+// SUREFILL_FUZZ_PLAIN in the environment always by bytes, to see what the scenes are good for.
+std::size_t mutate_bytes(const Form& form, std::uint8_t* data, std::size_t size, std::size_t max_size, unsigned seed);
+std::size_t cross_bytes(const Form& form, std::span<const std::uint8_t> a, std::span<const std::uint8_t> b,
+                        std::span<std::uint8_t> out, unsigned seed);
 
 }  // namespace surefill::fuzz
+
+// The two functions that libFuzzer looks for, for a target whose inputs have this form.
+#define SUREFILL_FUZZ_MUTATORS(form)                                                                                  \
+  extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,          \
+                                                 unsigned seed) {                                                     \
+    return surefill::fuzz::mutate_bytes(surefill::fuzz::form##_form, data, size, max_size, seed);                     \
+  }                                                                                                                   \
+  extern "C" std::size_t LLVMFuzzerCustomCrossOver(const std::uint8_t* a, std::size_t a_size, const std::uint8_t* b,  \
+                                                   std::size_t b_size, std::uint8_t* out, std::size_t out_size,       \
+                                                   unsigned seed) {                                                   \
+    return surefill::fuzz::cross_bytes(surefill::fuzz::form##_form, {a, a_size}, {b, b_size}, {out, out_size}, seed); \
+  }
 
 #endif  // SUREFILL_FUZZ_MUTATE_HPP

@@ -55,11 +55,10 @@ void check(const corpus::Scene& scene) {
 }  // namespace surefill::fuzz
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  surefill::fuzz::check(surefill::fuzz::decode_scene({data, size}));
+  const surefill::corpus::Scene scene = surefill::fuzz::decode_scene({data, size});
+  surefill::fuzz::note_scene([&] { return scene; });
+  surefill::fuzz::check(scene);
   return 0;
 }
 
-extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
-                                               unsigned seed) {
-  return surefill::fuzz::mutate_scene_bytes(data, size, max_size, seed);
-}
+SUREFILL_FUZZ_MUTATORS(scene)

@@ -8,7 +8,9 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <map>
+#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -50,19 +52,72 @@ class SeedWriter {
 // At most this many triangles of one scene; a mesh of hundreds adds little.
 constexpr std::size_t kTrianglesOfScene = 8;
 
+// Fewer make no closed mesh.
+constexpr std::size_t kMeshVertices = 5;
+
+// The scene as the fast path can have it: without the state that it leaves to the reference path, on the next larger
+// target of the form.
+void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) {
+  if (scene.samples != 1 || scene.draws.empty()) return;
+  for (corpus::SceneDraw& draw : scene.draws) {
+    draw.grid.reset();
+    draw.conservative = Conservative::none;
+    draw.depth_write = true;
+  }
+  const auto next_larger = [](int side) {
+    int best = std::numeric_limits<int>::max();
+    for (const int candidate : kPathSides) {
+      if (candidate >= side) best = std::min(best, candidate);
+    }
+    return best == std::numeric_limits<int>::max() ? kPathSides[0] : best;
+  };
+  scene.width = next_larger(scene.width);
+  scene.height = next_larger(scene.height);
+  if (scene.initial_depth.size() > 1)
+    scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
+  if (const std::optional<Bytes> bytes = encode_paths(scene)) seeds.add("paths", name, *bytes);
+}
+
+// A mesh over the vertices of a small scene, as text.
+void add_obj(SeedWriter& seeds, const corpus::Scene& scene, const std::string& name) {
+  constexpr std::size_t kMostVertices = 32;
+  const corpus::SceneDraw& draw = scene.draws.at(0);
+  if (draw.triangles.empty() || draw.vertices.size() > kMostVertices) return;
+  std::ostringstream text;
+  text << "o " << name << '\n';
+  for (const corpus::SceneVertex& v : draw.vertices) text << "v " << v.x << ' ' << v.y << ' ' << v.z << '\n';
+  for (const corpus::SceneTriangle& t : draw.triangles) {
+    text << 'f';
+    for (const std::uint32_t v : t.vertices) text << ' ' << v + 1;
+    text << '\n';
+  }
+  seeds.add("obj", name, text.str());
+}
+
 void add_scene(SeedWriter& seeds, const corpus::Scene& scene, const std::string& name) {
-  if (const std::optional<Bytes> bytes = encode_scene(scene)) seeds.add("scene", name, *bytes);
+  if (const std::optional<Bytes> bytes = encode_scene(scene)) {
+    seeds.add("scene", name, *bytes);
+    if (scene.samples > 1) seeds.add("samples", name, *bytes);
+    if (scene.draws[0].vertices.size() >= kMeshVertices) seeds.add("mesh", name, *bytes);
+  }
+  add_paths(seeds, scene, name);
   const std::vector<corpus::Scene> singles = single_triangles(scene);
   for (std::size_t t = 0; t < std::min(singles.size(), kTrianglesOfScene); ++t) {
-    if (const std::optional<Bytes> bytes = encode_triangle(singles[t])) {
-      seeds.add("triangle", name + "-" + std::to_string(t), *bytes);
+    const bool grid = singles[t].draws[0].grid.has_value();
+    if (const std::optional<Bytes> bytes = grid ? encode_grid_triangle(singles[t]) : encode_triangle(singles[t])) {
+      seeds.add(grid ? "grid" : "triangle", name + "-" + std::to_string(t), *bytes);
     }
   }
 }
 
 void add_generated(SeedWriter& seeds) {
   for (const properties::Category& category : properties::categories()) {
-    add_scene(seeds, properties::random_scene(category, 1), std::string("generated-") + category.name);
+    const std::string name = std::string("generated-") + category.name;
+    add_scene(seeds, properties::random_scene(category, 1), name);
+    properties::SceneLimits large;
+    large.max_size = kPathSides[7];
+    large.max_triangles = kMaxTriangles;
+    add_paths(seeds, properties::random_scene(category, 2, large), name + "-large");
   }
 }
 
@@ -85,8 +140,9 @@ int write_seeds(const std::string& cases, const fs::path& out) {
     const std::string name = fs::relative(path, cases).replace_extension().string();
     seeds.add("reader", name, corpus::write_scene(scene));
     add_scene(seeds, scene, name);
+    if (!scene.draws.empty()) add_obj(seeds, scene, name);
   }
-  for (const char* target : {"triangle", "scene", "reader"}) {
+  for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj"}) {
     if (seeds.count(target) == 0) {
       std::fprintf(stderr, "surefill_fuzz_seeds: no scene of %s fits the target %s\n", cases.c_str(), target);
       return 1;
@@ -94,7 +150,7 @@ int write_seeds(const std::string& cases, const fs::path& out) {
   }
   add_generated(seeds);
   add_arguments(seeds);
-  for (const char* target : {"triangle", "scene", "reader", "arguments"}) {
+  for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj", "arguments"}) {
     std::printf("%s: %zu seeds\n", target, seeds.count(target));
   }
   return 0;

@@ -330,7 +330,7 @@ void DrawRun::count_conservative(const Triangle& triangle, int line) {
     last = floor(std::min(upper->second, lower->second)) - 1;
   }
   for (int x = 0; x < target_.width; ++x) {
-    if (first <= x && x <= last && in_scissor(x, line)) {
+    if (!target_.count.empty() && first <= x && x <= last && in_scissor(x, line)) {
       ++target_.count[static_cast<std::size_t>(line) * static_cast<std::size_t>(target_.width) +
                       static_cast<std::size_t>(x)];
     }

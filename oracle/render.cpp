@@ -202,6 +202,7 @@ class Strip {
 
   void render_triangle(std::uint32_t number, std::size_t t) {
     const Draw& draw = draws_[number];
+    if (target_.count.empty() && !visibility_asked_) return;  // nothing is asked for
     const Shape shape(draw, t);
     if (shape.cone() && (shape.cone()->sign_of_det() == 0 || is_culled(draw, shape.cone()->sign_of_det()))) return;
     Rect rect = intersect(rows_, shape.bounds(target_.width, target_.height));
@@ -330,6 +331,56 @@ class Strip {
 };
 
 }  // namespace
+
+struct Probe::State {
+  const Target& target;
+  const Draw& draw;
+  std::size_t triangle;
+  Rect reach;                     // empty if the triangle is dropped or culled as a whole
+  std::optional<Shape> shape;     // unless it is dropped
+  std::optional<Depth> depth;     // made when first needed
+  std::optional<Visible> values;  // as well
+
+  const Depth& known_depth() {
+    if (!depth) depth.emplace(Edges(integer_vertices(vertices_of(draw, triangle))), shape->clipped());
+    return *depth;
+  }
+};
+
+Probe::Probe(const Target& target, const Draw& draw, std::size_t triangle)
+    : state_(new State{target, draw, triangle, {0, 0, 0, 0}, {}, {}, {}}) {
+  if (!is_finite(draw, triangle)) return;
+  const Shape& shape = state_->shape.emplace(draw, triangle);
+  if (shape.cone() && (shape.cone()->sign_of_det() == 0 || is_culled(draw, shape.cone()->sign_of_det()))) return;
+  state_->reach = shape.bounds(target.width, target.height);
+  if (!draw.scissor) return;
+  const Scissor& scissor = *draw.scissor;
+  state_->reach = intersect(state_->reach, {scissor.x0, scissor.y0, scissor.x1, scissor.y1});
+}
+
+Probe::~Probe() = default;
+
+bool Probe::covers(int x, int y, int n) {
+  const Rect& reach = state_->reach;
+  if (x < reach.x0 || x >= reach.x1 || y < reach.y0 || y >= reach.y1) return false;
+  const Point p = sample_point(state_->target.samples, n, x, y);
+  if (const std::optional<SnappedPolygon>& snapped = state_->shape->snapped()) {
+    const int winding = snapped->winding(p);
+    if (winding == 0 || is_culled(state_->draw, winding)) return false;
+  } else if (!state_->shape->cone()->covers(p)) {
+    return false;
+  }
+  return state_->draw.depth_mode != DepthMode::clip || state_->known_depth().keeps(p, DepthMode::clip);
+}
+
+float Probe::depth(int x, int y, int n) {
+  return *state_->known_depth().at(sample_point(state_->target.samples, n, x, y), state_->draw.depth_mode);
+}
+
+void Probe::store_values(int x, int y, std::size_t place) {
+  if (!state_->values) state_->values.emplace(state_->target, state_->draw, state_->triangle);
+  state_->values->store(x, y, place);
+}
 
 void render(const Target& target, std::span<const Draw> draws, int threads) {
   // Strips of at most about four million samples; with several threads, some for each.

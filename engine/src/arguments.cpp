@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "planted.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill {
@@ -148,7 +149,7 @@ Status validate_draw(const Target& target, const Draw& draw, const OutputBuffers
   for (const AttributeArray& attribute : draw.attributes) apart = apart && !outputs.touched_by(Bytes(attribute.values));
   if (!apart) return Status::target_overlap;
   for (const std::uint32_t index : draw.indices) {
-    if (index >= draw.vertices.size()) return Status::draw_index_out_of_range;
+    if (index >= draw.vertices.size() + (SUREFILL_PLANT(index_check) ? 1 : 0)) return Status::draw_index_out_of_range;
   }
   return Status::ok;
 }

@@ -11,6 +11,7 @@
 #endif
 
 #include "hwy/cache_control.h"
+#include "planted.hpp"
 #include "setup-inl.hpp"
 #include "triangle.hpp"
 
@@ -135,7 +136,7 @@ class Rasterizer {
     const std::uint32_t cells =
         Mask4x4(0, (batch_.boxes.last_x[lane_] - x) >> 2, 0, (batch_.boxes.last_y[lane_] - y) >> 2);
     SetUpLanes(a, b);
-    Area(e, a, b, kSmallBound, cells, x, y);
+    Area(e, a, b, SUREFILL_PLANT(small_bound) ? 2 : kSmallBound, cells, x, y);
   }
 
   // Larger triangles: tile by tile, with a scale for 64 samples; areas of 16 x 16 samples are rejected, accepted or
@@ -155,7 +156,8 @@ class Rasterizer {
     constexpr int kTileMask = ~((1 << kTileLog2) - 1);
     const int last_x = batch_.boxes.last_x[lane_], last_y = batch_.boxes.last_y[lane_];
     for (int ty = batch_.boxes.first_y[lane_] & kTileMask; ty <= last_y; ty += 1 << kTileLog2) {
-      for (int tx = batch_.boxes.first_x[lane_] & kTileMask; tx <= last_x; tx += 1 << kTileLog2) {
+      const int last_tile = SUREFILL_PLANT(tile_border) ? last_x - 1 : last_x;
+      for (int tx = batch_.boxes.first_x[lane_] & kTileMask; tx <= last_tile; tx += 1 << kTileLog2) {
         std::int32_t e[3];
         for (std::size_t i = 0; i < 3; ++i) {
           const double value = (a[i] * (tx + 0.5) + b[i] * (ty + 0.5)) + c[i];
@@ -321,6 +323,7 @@ class Rasterizer {
     const std::uint32_t winner = job_.buffers.winner[offset];
     if (!(z == job_.buffers.depth[offset]) || winner == kNoTriangle || winner < job_.first_ordinal) return false;
     const std::uint32_t other = winner - job_.first_ordinal;
+    if (SUREFILL_PLANT(merge_order)) return position_ < other;
     return with_identifiers_ ? draw_.identifiers[position_] < draw_.identifiers[other] : position_ < other;
   }
 
@@ -409,7 +412,8 @@ class Rasterizer {
   HWY_INLINE std::uint32_t Visible(std::uint32_t cells, int x, int y) const {
     if (!kVisibility || kCount || slow_depth_ || ((x | y) & 7) != 0 || (batch_.small >> lane_ & 1) != 0) return cells;
     if (clip_ && draw_.depth_mode == DepthMode::clamp) return cells;
-    const double dip = std::min(0.0, 7 * z_x_) + std::min(0.0, 7 * z_y_) - z_error_;
+    const double reach = SUREFILL_PLANT(hierarchical_z) ? 6 : 7;
+    const double dip = std::min(0.0, reach * z_x_) + std::min(0.0, reach * z_y_) - z_error_;
     for (int n = 0; n < 4; ++n) {
       if ((cells & kBlockCells[n]) == 0) continue;
       const int block_x = x + (n & 1) * 8, block_y = y + (n >> 1) * 8;

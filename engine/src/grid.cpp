@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planted.hpp"
+
 namespace surefill {
 namespace {
 
@@ -51,7 +53,7 @@ GuardCorner edge_corner(int plane, const Vertex& a, const Vertex& b) {
   const auto mean = [&](double at_a, double at_b) {
     Expansion<8> sum;
     sum.add_scaled(fb, fb.sign() * at_a);
-    sum.add_scaled(fa, fa.sign() * at_b);
+    sum.add_scaled(fa, fa.sign() * (SUREFILL_PLANT(guard_band_cut) && at_a < at_b ? at_b * (1 + 0x1p-20) : at_b));
     return sum;
   };
   GuardCorner corner;
@@ -158,6 +160,7 @@ double round_to_integer(double floor_of_t, int above_floor, int above_half, Grid
   const double up = floor_of_t + 1;
   switch (rounding) {
     case GridRounding::nearest_even:
+      if (SUREFILL_PLANT(snap_halfway) && above_half == 0) return up;
       if (above_half != 0) return above_half > 0 ? up : floor_of_t;
       return std::fmod(floor_of_t, 2) == 0 ? floor_of_t : up;
     case GridRounding::nearest_up:
@@ -180,7 +183,7 @@ std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator
     return rest.sign();
   };
   // |t| < 2^27, and the estimates, the division and the difference have relative errors below 2^-48 together.
-  constexpr double kError = 0x1p-21;
+  const double kError = SUREFILL_PLANT(snap_bound) ? 0x1p-40 : 0x1p-21;
   const double estimate = numerator.estimate() / denominator.estimate() * scale - offset / 16.0;
   double floor_of_t = std::floor(estimate);
   const double fraction = estimate - floor_of_t;  // exact

@@ -11,6 +11,7 @@
 #include "bounds.hpp"
 #include "conservative.hpp"
 #include "grid.hpp"
+#include "planted.hpp"
 #include "triangle.hpp"
 
 namespace surefill::reference {
@@ -220,6 +221,7 @@ class DrawRenderer {
   bool passes(std::uint32_t position, float z, std::size_t s) const {
     const bool nearer = target_.depth_test == DepthTest::less ? z < depth_[s] : z > depth_[s];
     if (winner_[s] == kNoTriangle) return nearer;
+    if (SUREFILL_PLANT(depth_tie)) return nearer || (z == depth_[s] && position < winner_[s]);
     if (!draw_.depth_write) return nearer && index_of(draw_, position) >= index_of(draw_, winner_[s]);
     return nearer || (z == depth_[s] && index_of(draw_, position) < index_of(draw_, winner_[s]));
   }

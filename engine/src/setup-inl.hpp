@@ -13,6 +13,7 @@
 
 #include "bin.hpp"
 #include "hwy/highway.h"
+#include "planted.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
@@ -248,7 +249,8 @@ HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_
   const IntTag di;
   const Draw& draw = *job.draw;
   for (std::uint32_t lane = 0; lane < kBatch; ++lane) {
-    batch.vertices.Load(draw, lane, job.chunk_begin + entries[lane < count ? lane : 0].number);
+    const std::uint32_t from = SUREFILL_PLANT(batch_lane) && lane == 5 ? 4 : lane;
+    batch.vertices.Load(draw, lane, job.chunk_begin + entries[lane < count ? from : 0].number);
   }
   batch.live = (1u << count) - 1;
   batch.small = batch.slow_depth = batch.clip = batch.negative = batch.degenerate = 0;
@@ -342,8 +344,8 @@ HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_
     const Double size = hn::Add(hn::Abs(z), hn::Add(hn::Mul(hn::Abs(zx), rx), hn::Mul(hn::Abs(zy), ry)));
     const Double steps = hn::Mul(bound, hn::Add(hn::Mul(zx_size, rx), hn::Mul(zy_size, ry)));
     const Double numerators = hn::Add(hn::Add(z_error, steps), hn::Mul(size, det_error));
-    const Double total =
-        hn::Mul(hn::Add(hn::Div(numerators, smallest), hn::Mul(bound, size)), hn::Set(dd, 1 + 0x1p-20));
+    const Double total = hn::Mul(hn::Add(hn::Div(numerators, smallest), hn::Mul(bound, size)),
+                                 hn::Set(dd, SUREFILL_PLANT(depth_bound) ? 0x1p-8 : 1 + 0x1p-20));
     const auto known = hn::And(hn::Gt(smallest, hn::Zero(dd)), hn::Lt(hn::Add(size, total), hn::Set(dd, 1e38)));
     batch.slow_depth |= Bits(dd, hn::Not(known)) << lane;
     const Double direction = hn::Set(dd, job.greater ? -1.0 : 1.0);

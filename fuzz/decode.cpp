@@ -412,6 +412,8 @@ std::optional<Bytes> encode_samples(const Scene& scene) {
   return scene.samples > 1 ? encode_scene(scene) : std::nullopt;
 }
 
+constexpr int kLargeSide = 32;
+
 Scene decode_paths(std::span<const std::uint8_t> bytes) {
   const std::uint32_t sides = bytes.empty() ? 0u : bytes[0];
   Bytes rest(bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kPathPrefix)), bytes.end());
@@ -419,6 +421,7 @@ Scene decode_paths(std::span<const std::uint8_t> bytes) {
   Scene scene = decode_scene(rest);
   scene.width = kPathSides[sides & 7u];
   scene.height = kPathSides[sides >> 3 & 7u];
+  if (scene.width > kLargeSide && scene.height > kLargeSide) scene.height = kPathSides[0];
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
   for (SceneDraw& draw : scene.draws) {
@@ -434,6 +437,7 @@ std::optional<Bytes> encode_paths(const Scene& scene) {
     return static_cast<std::uint32_t>(std::find(std::begin(kPathSides), std::end(kPathSides), side) - kPathSides);
   };
   const std::uint32_t width = side_number(scene.width), height = side_number(scene.height);
+  if (scene.width > kLargeSide && scene.height > kLargeSide) return std::nullopt;
   if (width > 7 || height > 7 || scene.samples != 1 || scene.initial_depth.size() > 1) return std::nullopt;
   for (const SceneDraw& draw : scene.draws) {
     if (draw.grid || draw.conservative != Conservative::none || !draw.depth_write) return std::nullopt;

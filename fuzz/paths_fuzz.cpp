@@ -31,12 +31,13 @@ void use_instruction_set(std::size_t number) {
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
-void check(const corpus::Scene& scene, std::uint32_t how, std::uint32_t without) {
-  constexpr int kThreads[] = {1, 2, 3, 8};
+void check(const corpus::Scene& scene, std::uint32_t how, std::uint32_t outputs_byte) {
+  constexpr int kThreads[] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 2, 3, 8};
   use_instruction_set(how & 15u);
-  const Options fast{kThreads[how >> 4 & 3u], Path::automatic}, slow{1, Path::reference};
-  const corpus::Outputs outputs{(without & 1u) == 0, (without & 2u) == 0, (without & 4u) == 0, (without & 8u) == 0,
-                                (without & 16u) == 0};
+  const Options fast{kThreads[how >> 4 & 15u], Path::automatic}, slow{1, Path::reference};
+  const bool shading = (outputs_byte >> 3 & 3u) == 3;
+  const corpus::Outputs outputs{(outputs_byte & 1u) == 0, (outputs_byte & 2u) == 0, (outputs_byte & 4u) == 0, shading,
+                                shading};
   corpus::Frame expected(scene, outputs), actual(scene, outputs);
   Statistics of_expected, of_actual;
   const auto fail = [&](const std::string& relation) {

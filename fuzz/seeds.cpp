@@ -8,7 +8,6 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <limits>
 #include <map>
 #include <sstream>
 #include <string>
@@ -65,14 +64,14 @@ void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) 
     draw.depth_write = true;
   }
   const auto next_larger = [](int side) {
-    int best = std::numeric_limits<int>::max();
+    int best = 0;
     for (const int candidate : kPathSides) {
-      if (candidate >= side) best = std::min(best, candidate);
+      if (candidate >= side && (best == 0 || candidate < best)) best = candidate;
     }
-    return best == std::numeric_limits<int>::max() ? kPathSides[0] : best;
+    return best == 0 ? kPathSides[0] : best;
   };
   scene.width = next_larger(scene.width);
-  scene.height = next_larger(scene.height);
+  scene.height = scene.width > kPathSides[3] ? kPathSides[0] : next_larger(scene.height);
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
   if (const std::optional<Bytes> bytes = encode_paths(scene)) seeds.add("paths", name, *bytes);
@@ -114,6 +113,12 @@ void add_generated(SeedWriter& seeds) {
   for (const properties::Category& category : properties::categories()) {
     const std::string name = std::string("generated-") + category.name;
     add_scene(seeds, properties::random_scene(category, 1), name);
+    properties::SceneLimits modes;
+    modes.max_size = kMaxSide[4];
+    modes.samples = modes.grid = true;
+    for (std::uint64_t seed = 3; seed < 7; ++seed) {
+      add_scene(seeds, properties::random_scene(category, seed, modes), name + "-modes-" + std::to_string(seed));
+    }
     properties::SceneLimits large;
     large.max_size = kPathSides[7];
     large.max_triangles = kMaxTriangles;
@@ -130,6 +135,17 @@ void add_arguments(SeedWriter& seeds) {
     bytes[0] = static_cast<std::uint8_t>(n);
     seeds.add("arguments", "call-" + std::to_string(n), bytes);
   }
+}
+
+// A message of the adapter protocol, one draw of one triangle with all outputs asked for; and a certificate with
+// nothing in it. Their readers' targets find the rest by themselves and by the dictionary.
+void add_texts(SeedWriter& seeds) {
+  constexpr std::uint8_t kWords[] = {31, 4, 4, 1, 0, 0, 0, 1, 0, 3, 1};
+  constexpr std::size_t kStateOfDraw = 24, kNumbersOfVertices = 24, kIndicesAndIdentifier = 4;
+  Bytes bytes((std::size(kWords) + kStateOfDraw + kNumbersOfVertices + kIndicesAndIdentifier) * 4);
+  for (std::size_t i = 0; i < std::size(kWords); ++i) bytes[4 * i] = kWords[i];
+  seeds.add("adapter", "triangle", bytes);
+  seeds.add("certificate", "empty", std::string_view("{\"format\": \"surefill-certificate\", \"checks\": []}\n"));
 }
 
 int write_seeds(const std::string& cases, const fs::path& out) {
@@ -150,7 +166,9 @@ int write_seeds(const std::string& cases, const fs::path& out) {
   }
   add_generated(seeds);
   add_arguments(seeds);
-  for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj", "arguments"}) {
+  add_texts(seeds);
+  for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj", "arguments",
+                             "adapter", "certificate"}) {
     std::printf("%s: %zu seeds\n", target, seeds.count(target));
   }
   return 0;

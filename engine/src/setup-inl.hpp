@@ -152,8 +152,10 @@ void FindBoxes(const Draw& draw, bool check_attributes, std::uint32_t first, std
   }
   statistics.triangles += count;
   for (std::uint32_t lane = 0; lane < count; ++lane) {
-    out[lane] = (mixed >> lane & 1) != 0 ? MixedBox(vertices, lane, limits) : boxes.Get(lane);
-    if (limits.empty()) out[lane] = {0, 0, 0, 0};
+    out[lane] = {0, 0, 0, 0};
+    if (!limits.empty()) {  // else the boxes may lie anywhere, up to the ends of int
+      out[lane] = (mixed >> lane & 1) != 0 ? MixedBox(vertices, lane, limits) : boxes.Get(lane);
+    }
     if ((finite >> lane & 1) == 0 || (check_attributes && !AttributesFinite(draw, first + lane))) {
       ++statistics.dropped;
       out[lane] = {0, 0, 0, 0};

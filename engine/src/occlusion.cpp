@@ -122,18 +122,28 @@ struct OcclusionBuffer::State {
     }
   }
 
-  // Each block's farthest key, from the level below.
+  // Each block's farthest key, from the level below: over the rows of a block first, column by column, which compilers
+  // make vector code of; then over its columns.
   void build() {
+    constexpr int kFanout = 1 << kFanoutLog2, kColumns = 16 * kFanout;
     for (int k = 1; k <= kLevels; ++k) {
       const Level &below = levels[k - 1], &level = levels[k];
       const float scale = k == 1 ? sign() : 1.0f;
-      std::fill_n(level.farthest, static_cast<std::size_t>(level.width) * static_cast<std::size_t>(level.height),
-                  -kFarthest);
-      for (int y = 0; y < below.height; ++y) {
-        const float* from = below.farthest + static_cast<std::size_t>(y) * static_cast<std::size_t>(below.width);
-        float* to = level.farthest + static_cast<std::size_t>(y >> kFanoutLog2) * static_cast<std::size_t>(level.width);
-        for (int x = 0; x < below.width; ++x) {
-          to[x >> kFanoutLog2] = std::max(to[x >> kFanoutLog2], scale * from[x]);
+      for (int y = 0; y < level.height; ++y) {
+        float* to = level.farthest + static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width);
+        const int first_row = y * kFanout, last_row = std::min(first_row + kFanout, below.height);
+        for (int x = 0; x < below.width; x += kColumns) {
+          const int columns = std::min(kColumns, below.width - x);
+          float farthest[kColumns];
+          std::fill_n(farthest, kColumns, -kFarthest);
+          for (int row = first_row; row < last_row; ++row) {
+            const float* from =
+                below.farthest + static_cast<std::size_t>(row) * static_cast<std::size_t>(below.width) + x;
+            for (int i = 0; i < columns; ++i) farthest[i] = std::max(farthest[i], scale * from[i]);
+          }
+          for (int i = 0; i < columns; i += kFanout) {
+            to[(x + i) >> kFanoutLog2] = *std::max_element(farthest + i, farthest + i + kFanout);
+          }
         }
       }
     }

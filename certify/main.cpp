@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "certify/checks.hpp"
+#include "certify/explain.hpp"
 #include "certify/files.hpp"
 #include "certify/mesh.hpp"
 #include "certify/picture.hpp"
@@ -354,6 +355,21 @@ int run(int argc, char** argv) {
   reduce_command->add_flag("--second-oracle", reduce_options.second_oracle, "The two oracles differ, not the engine");
   reduce_command->add_option("--seconds", reduce_options.seconds, "Time it may take (60)")->check(CLI::Range(1, 86400));
 
+  ExplainOptions explain_options;
+  CLI::App* explain_command = app.add_subcommand("explain", "Picture how the techniques of the textbook see a scene");
+  explain_command->add_option("SCENE", explain_options.input, "The scene");
+  explain_command->add_option("-o,--output", explain_options.output, "The picture to write: .svg or .png");
+  explain_command->add_option("--view", explain_options.view, "What to show (traversal)")
+      ->check(CLI::IsMember(view_names()));
+  explain_command->add_option("--strategy", explain_options.strategy, "The traversal to show (hierarchical)")
+      ->check(CLI::IsMember(strategy_names()));
+  explain_command->add_flag("--compare", explain_options.compare, "All traversals side by side, with their counts");
+  explain_command->add_flag("--values", explain_options.values, "Write the edge values at each sample");
+  explain_command->add_option("--tile", explain_options.tile, "Size of the (largest) tiles (16)")
+      ->check(CLI::IsMember({4, 8, 16, 32, 64}));
+  explain_command->add_option("--triangle", explain_options.triangle, "Number of the triangle to show (0)");
+  explain_command->add_flag("--counts", explain_options.counts, "Print the table of counts; no picture");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -361,10 +377,14 @@ int run(int argc, char** argv) {
     throw UsageError(one_line(error.what()) + " (--help shows the usage)");
   }
   if (app.get_subcommands().empty()) {
-    throw UsageError("a subcommand is needed: render, certify, replay or reduce (--help shows the usage)");
+    throw UsageError("a subcommand is needed: render, certify, replay, reduce or explain (--help shows the usage)");
   }
   if (render_command->parsed()) return run_render(render_options);
   if (certify_command->parsed()) return run_certify(certify_options);
+  if (explain_command->parsed()) {
+    print(explain(explain_options));
+    return kGood;
+  }
   if (replay_command->parsed()) return run_replay(replay_files, replay_options);
   return run_reduce(reduce_options);
 }

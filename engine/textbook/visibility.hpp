@@ -47,12 +47,14 @@ class DepthBuffer {
       EdgeSet undecided = kAllEdges;
       if (asked.classify(box, &undecided) == TileClass::reject) return;
       ++counts_.tiles;
-      Range& range = tile(box.x0, box.y0);
+      Range& range = tiles_[tile(box.x0, box.y0)];
+      ++range.tests;
       bool test = true;
       if (hierarchical_) {
         const Range reach = depth_range(triangle, box);
         if (reach.low > range.high || (reach.low == range.high && index > range.largest_index)) {
           ++counts_.tiles_behind;
+          ++range.behind;
           return;
         }
         test = reach.high >= range.low;
@@ -71,16 +73,19 @@ class DepthBuffer {
   const std::vector<std::uint32_t>& index() const { return index_; }
   const DepthCounts& counts() const { return counts_; }
 
- private:
+  // What a tile knows: bounds of its depths, and for pictures how often a triangle met it and was culled there.
   struct Range {
     float low = std::numeric_limits<float>::infinity(), high = low;
     std::uint32_t largest_index = kNoTriangle;  // among the samples of the tile
+    int tests = 0, behind = 0;
   };
+  const Range& range(int x, int y) const { return tiles_[tile(x, y)]; }
 
+ private:
   std::size_t place(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) + static_cast<std::size_t>(x);
   }
-  Range& tile(int x, int y) { return tiles_[static_cast<std::size_t>(y / kTile * columns_ + x / kTile)]; }
+  std::size_t tile(int x, int y) const { return static_cast<std::size_t>(y / kTile * columns_ + x / kTile); }
 
   // Depth is affine and rounding is monotonic: the stored depths of the box lie between those of its corner samples.
   Range depth_range(Triangle& triangle, const PixelBox& box) {
@@ -88,7 +93,7 @@ class DepthBuffer {
     const float z[4] = {triangle.rounded_depth({left, top}, unused_), triangle.rounded_depth({right, top}, unused_),
                         triangle.rounded_depth({left, bottom}, unused_),
                         triangle.rounded_depth({right, bottom}, unused_)};
-    return {*std::min_element(z, z + 4), *std::max_element(z, z + 4), 0};
+    return {*std::min_element(z, z + 4), *std::max_element(z, z + 4)};
   }
 
   void fragment(Triangle& triangle, std::uint32_t index, int x, int y, bool test) {
@@ -105,7 +110,7 @@ class DepthBuffer {
 
   void update(Range& range, int x0, int y0) {
     x0 = x0 / kTile * kTile, y0 = y0 / kTile * kTile;
-    range = {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), 0};
+    range.low = std::numeric_limits<float>::infinity(), range.high = -range.low, range.largest_index = 0;
     for (int y = y0; y < std::min(y0 + kTile, height_); ++y) {
       for (int x = x0; x < std::min(x0 + kTile, width_); ++x) {
         range.low = std::min(range.low, depth_[place(x, y)]);

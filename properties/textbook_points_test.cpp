@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Points and lines of the textbook cover what M7 says, and connected strips hit each column once.
+#include "engine/textbook/points_lines.hpp"
+#include "oracle/points_lines.hpp"
+#include "properties/textbook_check.hpp"
+
+namespace surefill::properties {
+namespace {
+
+float any_size(Random& random) {
+  return random.one_in(2) ? static_cast<float>(random.between(1, 24)) / 4
+                          : static_cast<float>(std::ldexp(random.unit() + 1e-9, random.between(-30, 4)));
+}
+
+TEST(TextbookPoints, CoverWhatTheOracleSays) {
+  std::atomic<std::uint64_t> points{0}, lines{0}, wide{0};
+  for_each_case(textbook_scenes(1'000), [&](std::uint64_t n) -> std::string {
+    TriangleCase c = random_triangle(n, false);
+    c.width = std::min(c.width, 9), c.height = std::min(c.height, 9);
+    if (!c.all_finite()) return "";
+    Random random(n);
+    // Half of the ends lie on samples or corners of diamonds.
+    for (Vertex& v : c.vertices) {
+      if (random.one_in(2)) {
+        const auto w = static_cast<float>(random.one_in(8) ? -1 : random.between(1, 3));
+        v = {static_cast<float>(random.between(-2, 2 * c.width + 2)) / 2 * w,
+             static_cast<float>(random.between(-2, 2 * c.height + 2)) / 2 * w, 0, w};
+      }
+    }
+    const Vertex &v0 = c.vertices[0], &v1 = c.vertices[1];
+    const float size = any_size(random);
+    const textbook::Line line(v0, v1, c.rule);
+    for (int y = 0; y < c.height; ++y) {
+      for (int x = 0; x < c.width; ++x) {
+        const SamplePosition p{x + 0.5, y + 0.5};
+        const bool point = oracle::point_covers(v0, size, p.x, p.y, c.rule),
+                   thin = oracle::line_covers(v0, v1, p.x, p.y, c.rule),
+                   broad = oracle::wide_line_covers(v0, v1, size, p.x, p.y, c.rule);
+        const std::string where =
+            " at pixel " + std::to_string(x) + ", " + std::to_string(y) + ", size " + text(size) + c.text();
+        if (textbook::point_covers(v0, size, p, c.rule) != point) return "point" + where;
+        if (line.exits_diamond(p) != thin) return "line" + where;
+        if (line.covers_wide(size, p) != broad) return "wide line" + where;
+        points += point ? 1u : 0u, lines += thin ? 1u : 0u, wide += broad ? 1u : 0u;
+      }
+    }
+    return "";
+  });
+  EXPECT_GT(points, 1000u);
+  EXPECT_GT(lines, 1000u);
+  EXPECT_GT(wide, 1000u);
+}
+
+// A strip that goes to the right, never steeper than 45 degrees: every column between its ends is hit once, by thin
+// lines and by lines of width 1.
+TEST(TextbookLines, AConnectedStripHitsEachColumnOnce) {
+  for_each_case(textbook_scenes(1'000), [](std::uint64_t n) -> std::string {
+    Random random(n);
+    const auto rule = static_cast<FillRule>(random.below(8));
+    const int units = random.one_in(2) ? 2 : 16;  // of a pixel: halves lie on samples and on corners of diamonds
+    int x = random.between(-units, units), y = 6 * units + random.between(-units, units);
+    std::vector<Vertex> strip;
+    while (x < 12 * units) {
+      const auto w = static_cast<float>(1 << random.between(0, 2));
+      strip.push_back({static_cast<float>(x) / static_cast<float>(units) * w,
+                       static_cast<float>(y) / static_cast<float>(units) * w, 0, w});
+      const int step = random.between(1, 3 * units);
+      x += step, y += random.between(-step, step);
+    }
+    if (strip.size() < 2) return "";
+    const double first = strip.front().x / strip.front().w, last = strip.back().x / strip.back().w;
+    int top = 100, bottom = -100;
+    for (const Vertex& v : strip) {
+      top = std::min(top, static_cast<int>(std::floor(v.y / v.w)) - 2);
+      bottom = std::max(bottom, static_cast<int>(std::floor(v.y / v.w)) + 2);
+    }
+    for (int column = 0; column < 12; ++column) {
+      if (column - 0.5 <= first || column + 1.5 >= last) continue;
+      int thin = 0, wide = 0;
+      for (int row = top; row <= bottom; ++row) {
+        const SamplePosition p{column + 0.5, row + 0.5};
+        for (std::size_t k = 0; k + 1 < strip.size(); ++k) {
+          const textbook::Line line(strip[k], strip[k + 1], rule);
+          if (line.exits_diamond(p)) ++thin;
+          if (line.covers_wide(1, p)) ++wide;
+        }
+      }
+      if (thin != 1)
+        return "column " + std::to_string(column) + " hit " + std::to_string(thin) + " times by thin lines";
+      if (wide != 1)
+        return "column " + std::to_string(column) + " hit " + std::to_string(wide) + " times by lines of width 1";
+    }
+    return "";
+  });
+}
+
+// Points at the samples of a lattice, as large as its step: they tile, each sample once, whatever the rule.
+TEST(TextbookPoints, SquaresSideBySideTile) {
+  for (int r = 0; r < 8; ++r) {
+    for (int y = 2; y < 6; ++y) {
+      for (int x = 2; x < 6; ++x) {
+        int covers = 0;
+        for (int j = -4; j <= 12; j += 3) {
+          for (int i = -4; i <= 12; i += 3) {
+            const Vertex v{static_cast<float>(i), static_cast<float>(j), 0, 1};
+            if (textbook::point_covers(v, 3, {x + 0.5, y + 0.5}, static_cast<FillRule>(r))) ++covers;
+          }
+        }
+        EXPECT_EQ(covers, 1) << "rule " << r << " at " << x << ", " << y;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace surefill::properties

@@ -9,6 +9,8 @@
 #include <tuple>
 #include <utility>
 
+#include "properties/near_zero.hpp"
+
 // libFuzzer's own mutator; AFL++ has none.
 extern "C" [[gnu::weak]] std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
 
@@ -223,9 +225,12 @@ void move_into_view(Scene& scene, SceneDraw& draw, Random& random) {
 // Depths at which something is decided, and attributes that are constant or nearly so.
 void set_values(Scene&, SceneDraw& draw, Random& random) {
   SceneVertex& v = any_vertex(draw, random);
-  const float depths[] = {0.0f, v.w, -v.w, v.w / 2, rounded(random.unit()), std::nextafter(v.w, 0.0f)};
+  const float other = any_vertex(draw, random).z;
+  const float depths[] = {
+      0.0f, v.w, -v.w, v.w / 2, rounded(random.unit()), std::nextafter(v.w, 0.0f), std::nextafter(other, HUGE_VALF),
+      other};
   if (v.attributes.empty() || random.one_in(2)) {
-    v.z = depths[random.below(6)];
+    v.z = depths[random.below(8)];
     return;
   }
   const SceneVertex& from = any_vertex(draw, random);
@@ -262,6 +267,32 @@ void use_grid(Scene&, SceneDraw& draw, Random& random) {
   }
 }
 
+// A triangle whose D or edge function is a few units left of large terms: no chance and no nudge finds these.
+void make_nearly_zero(Scene& scene, SceneDraw& draw, Random& random) {
+  const Corners c = any_corners(draw, random);
+  const std::array<Vertex, 3> t = random.one_in(2) ? properties::nearly_tied_triangle(random, scene.width, scene.height)
+                                  : random.one_in(2)
+                                      ? properties::nearly_degenerate_triangle(random)
+                                      : properties::nearly_degenerate_tied_triangle(random, scene.width, scene.height);
+  const std::size_t corners[] = {c.i, c.j, c.k};
+  for (std::size_t i = 0; i < 3; ++i) {
+    SceneVertex& v = draw.vertices[corners[i]];
+    v.x = t[i].x, v.y = t[i].y, v.w = t[i].w;
+    if (random.one_in(2)) v.z = t[i].z;
+  }
+}
+
+// The same triangle twice, so that depths are equal and the order decides; or other identifiers.
+void repeat_triangle(Scene&, SceneDraw& draw, Random& random) {
+  if (draw.triangles.size() < 2) return;
+  const auto count = static_cast<std::uint32_t>(draw.triangles.size());
+  draw.triangles[random.below(count)].vertices = draw.triangles[random.below(count)].vertices;
+  const std::uint32_t identifiers = random.below(3);  // kept, falling, or shuffled and with repetitions
+  for (std::uint32_t t = 0; t < count && identifiers != 0; ++t) {
+    draw.triangles[t].identifier = identifiers == 1 ? count - t : random.below(2 * count);
+  }
+}
+
 using Mutation = void (*)(Scene&, SceneDraw&, Random&);
 constexpr Mutation kMutations[] = {
     vertex_on_sample,
@@ -284,6 +315,9 @@ constexpr Mutation kMutations[] = {
     set_values,
     use_grid,
     use_grid,
+    make_nearly_zero,
+    make_nearly_zero,
+    repeat_triangle,
 };
 
 // A culling box must go on holding the draw (M6): its corners are the vertices in turn.

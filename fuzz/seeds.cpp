@@ -105,6 +105,7 @@ void add_scene(SeedWriter& seeds, const corpus::Scene& scene, const std::string&
     const bool grid = singles[t].draws[0].grid.has_value();
     if (const std::optional<Bytes> bytes = grid ? encode_grid_triangle(singles[t]) : encode_triangle(singles[t])) {
       seeds.add(grid ? "grid" : "triangle", name + "-" + std::to_string(t), *bytes);
+      if (!grid) seeds.add("your_rasterizer", name + "-" + std::to_string(t), *bytes);
     }
   }
 }

@@ -3,7 +3,8 @@
 """How soon the fuzzers find faults that are planted in the engine: CPU seconds until the first finding, the median over
 seeds, each run capped. Without the corpus: every run begins with one plain input, or the seeds would find most at once.
 
-usage: fuzz/time_to_find.py [--seeds 3] [--cap 60] [--engine ENGINE ...] [--jobs N] [--markdown FILE] [FAULT ...]
+usage: fuzz/time_to_find.py [--seeds 3] [--cap 60] [--engine ENGINE ...] [--jobs N] [--programs FOLDER]
+                             [--markdown FILE] [FAULT ...]
 
 Builds build/planted (libFuzzer, address and undefined sanitizers, SUREFILL_PLANTED) and, for AFL++, build/planted-afl. The
 engines: custom (libFuzzer with the project's mutator and crossover), plain (libFuzzer's own mutator), afl (AFL++), seeded
@@ -74,7 +75,7 @@ def plain_input(target):
     """What every run begins with."""
     if target == "reader":
         return (b"surefill-scene 1\ntarget 8 8\n\ndraw\n  vertex 1 1 0.5 1\n  vertex 7 2 0.5 1\n  vertex 3 6 0.5 1\n"
-                b"  triangle 0 1 2\n")
+                b"  triangle 0 1 2\nend\n")
     return bytes(range(64)) * 2 if target == "arguments" else bytes(64)
 
 
@@ -157,6 +158,7 @@ def main():
     parser.add_argument("--cap", type=int, default=60)
     parser.add_argument("--engine", action="append", choices=ENGINES)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
+    parser.add_argument("--programs", help="folder of targets that are built already, for all engines given")
     parser.add_argument("--markdown", help="write the table there, too")
     parser.add_argument("fault", nargs="*")
     options = parser.parse_args()
@@ -165,7 +167,7 @@ def main():
     for fault in faults:
         if fault not in FAULTS:
             sys.exit(f"time_to_find: no such fault: {fault}")
-    programs = {engine: str(build(engine)) for engine in engines}
+    programs = {engine: options.programs or str(build(engine)) for engine in engines}
     tasks = [(engine, programs[engine], fault, seed, options.cap)
              for fault in faults for engine in engines for seed in range(1, options.seeds + 1)]
     lines = [f"| fault | target | {' | '.join(engines)} |", f"| --- | --- |{' ---: |' * len(engines)}"]

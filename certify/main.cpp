@@ -28,6 +28,7 @@
 #include "certify/replay.hpp"
 #include "certify/report.hpp"
 #include "certify/runner.hpp"
+#include "certify/zoo.hpp"
 #include "corpus/scene.hpp"
 #include "oracle/oracle.hpp"
 #include "properties/reduce.hpp"
@@ -295,6 +296,27 @@ int run_reduce(const ReduceOptions& options) {
   return kGood;
 }
 
+// --- zoo
+// --------------------------------------------------------------------------------------------------------------
+
+struct ZooArguments {
+  ZooOptions options;
+  std::string markdown, picture;
+};
+
+int run_zoo(const ZooArguments& arguments) {
+  for (const std::string& file : {arguments.markdown, arguments.picture})
+    if (!file.empty()) check_writable(file);
+  catch_interrupts();
+  const KillMatrix matrix = kill_matrix(arguments.options);
+  print(zoo_text(matrix));
+  if (matrix.interrupted) return kInterrupted;
+  if (!arguments.markdown.empty())
+    write_file(arguments.markdown, zoo_markdown(matrix, std::filesystem::path(arguments.picture).filename().string()));
+  if (!arguments.picture.empty()) write_file(arguments.picture, zoo_picture(matrix));
+  return matrix.failures().empty() ? kGood : kBad;
+}
+
 // --- The command line
 // -------------------------------------------------------------------------------------------------
 
@@ -355,6 +377,17 @@ int run(int argc, char** argv) {
   reduce_command->add_flag("--second-oracle", reduce_options.second_oracle, "The two oracles differ, not the engine");
   reduce_command->add_option("--seconds", reduce_options.seconds, "Time it may take (60)")->check(CLI::Range(1, 86400));
 
+  ZooArguments zoo_arguments;
+  zoo_arguments.options.jobs = all_cores();
+  zoo_arguments.options.cases = 2000;
+  CLI::App* zoo_command =
+      app.add_subcommand("zoo", "Hold wrong rasterizers against every property: all must be killed");
+  zoo_command->add_option("--cases", zoo_arguments.options.cases, "Of each property (2000)")
+      ->check(CLI::Range(1, 100000000));
+  zoo_command->add_option("--markdown", zoo_arguments.markdown, "Write the table there")
+      ->needs(zoo_command->add_option("--picture", zoo_arguments.picture, "Draw the matrix there, as SVG"));
+  zoo_command->add_option("--jobs", zoo_arguments.options.jobs, "Threads (all cores)")->check(CLI::Range(1, 4096));
+
   ExplainOptions explain_options;
   CLI::App* explain_command = app.add_subcommand("explain", "Picture how the techniques of the textbook see a scene");
   explain_command->add_option("SCENE", explain_options.input, "The scene");
@@ -377,10 +410,11 @@ int run(int argc, char** argv) {
     throw UsageError(one_line(error.what()) + " (--help shows the usage)");
   }
   if (app.get_subcommands().empty()) {
-    throw UsageError("a subcommand is needed: render, certify, replay, reduce or explain (--help shows the usage)");
+    throw UsageError("a subcommand is needed: render, certify, replay, reduce, explain or zoo (--help shows the usage)");
   }
   if (render_command->parsed()) return run_render(render_options);
   if (certify_command->parsed()) return run_certify(certify_options);
+  if (zoo_command->parsed()) return run_zoo(zoo_arguments);
   if (explain_command->parsed()) {
     print(explain(explain_options));
     return kGood;

@@ -11,6 +11,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "corpus/scene.hpp"
 #include "properties/generators.hpp"
@@ -25,6 +27,9 @@ std::span<const Property> degree_properties();
 std::span<const Property> symmetry_properties();
 std::span<const Property> value_properties();
 std::span<const Property> frame_properties();
+std::span<const Property> call_properties();
+std::span<const Property> mode_properties();
+std::span<const Property> split_properties();
 std::span<const Property> small_world_properties();
 
 inline constexpr corpus::Outputs kCountOnly{true, false, false, false, false};
@@ -45,6 +50,9 @@ class Check {
   // The renderer's image of the scene. When it returns another status than ok, that is a difference and there is no
   // image.
   std::optional<corpus::Image> draw(const corpus::Scene& scene, const corpus::Outputs& outputs);
+  // The same, in buffers that hold this bit pattern before.
+  std::optional<corpus::Image> draw_over(std::uint32_t garbage, const corpus::Scene& scene,
+                                         const corpus::Outputs& outputs);
 
   void looked_at(std::uint64_t samples) { verdict_.samples += samples; }
   void differs(const std::string& finding);
@@ -90,6 +98,31 @@ bool finite(const Vertex& vertex);
 
 // v * 2^exponent in X, Y, Z and W, or none if that is not exact.
 std::optional<Vertex> scaled_exactly(const Vertex& vertex, int exponent);
+
+// a + b, where it is a double, or a float32, exactly.
+std::optional<double> exact_sum(double a, double b);
+std::optional<float> exact_float_sum(double a, double b);
+
+// The vertex moved by (dx, dy) pixels; dx and dy have few bits.
+std::optional<Vertex> moved_exactly(const Vertex& vertex, double dx, double dy);
+
+// Both scenes, without the triangles whose vertices `change` cannot map exactly.
+using VertexChange = std::function<std::optional<Vertex>(const Vertex&)>;
+std::pair<corpus::Scene, corpus::Scene> changed_exactly(corpus::Scene scene, const VertexChange& change);
+
+// The triangle in three pieces that meet in i v0 + j v1 + k v2 (not all 0, none negative), which tile it over the
+// reals: T1. Piece n has the new vertex in place of vertex n, and is left out if its weight is 0. The new vertex is
+// exact, or there is none.
+std::optional<Vertex> combined_exactly(const std::array<Vertex, 3>& triangle, const std::array<int, 3>& weights);
+std::vector<std::array<Vertex, 3>> pieces_of(const std::array<Vertex, 3>& triangle, Random& random);
+
+// Random choices of a property that depend on the case alone.
+Random random_of(const corpus::Scene& scene);
+
+// Without what names places of the target, so that the image can move.
+corpus::Scene without_places(corpus::Scene scene);
+// Without attributes, in scene and vertices.
+corpus::Scene without_attributes(corpus::Scene scene);
 
 }  // namespace surefill::properties
 

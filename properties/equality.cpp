@@ -2,7 +2,11 @@
 //
 // The image equals the exact one, output by output and as a whole.
 #include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
 
+#include "oracle/oracle.hpp"
 #include "properties/check.hpp"
 
 namespace surefill::properties {
@@ -54,8 +58,55 @@ corpus::Scene make_scene(std::uint64_t n) {
   return random_case(n, limits);
 }
 
+// Frames with all their state in one mode each: sample patterns, Grid, conservative.
+corpus::Scene make_mode(std::uint64_t n, bool samples, bool grid, bool conservative) {
+  SceneLimits limits;
+  limits.max_size = 6;
+  limits.samples = samples;
+  limits.grid = grid;
+  limits.conservative = conservative;
+  for (std::uint64_t round = 0;; ++round) {  // the next scene that uses the mode: half of them, or a third
+    corpus::Scene scene = random_scene(category_of_case(n), n / categories().size() + (round << 40), limits);
+    const auto uses = [&](const corpus::SceneDraw& draw) {
+      return (grid && draw.grid) || (conservative && draw.conservative != Conservative::none);
+    };
+    if ((samples && scene.samples > 1) || std::any_of(scene.draws.begin(), scene.draws.end(), uses)) return scene;
+  }
+}
+
+corpus::Scene make_samples(std::uint64_t n) {
+  return make_mode(n, true, false, false);
+}
+corpus::Scene make_grid(std::uint64_t n) {
+  return make_mode(n, n % 4 == 3, true, false);
+}
+corpus::Scene make_conservative(std::uint64_t n) {
+  return make_mode(n, false, false, true);
+}
+
+// The exact image. The last one is kept, since many renderers may be held against it in turn.
+const corpus::Image& exact_image(const corpus::Scene& scene, const corpus::Outputs& outputs) {
+  struct Last {
+    corpus::Scene scene;
+    std::array<bool, 5> outputs;
+    corpus::Image image;
+  };
+  thread_local std::optional<Last> last;
+  const std::array<bool, 5> asked{outputs.count, outputs.index, outputs.depth, outputs.barycentrics,
+                                  outputs.attributes};
+  if (!last || last->outputs != asked || !corpus::equal(last->scene, scene)) {
+    corpus::Frame frame(scene, outputs);
+    oracle::render(frame.target(), frame.draws());
+    last = {scene, asked, std::move(frame.image())};
+  }
+  return last->image;
+}
+
 Verdict decide_with(const corpus::Scene& scene, const Renderer& renderer, const corpus::Outputs& outputs) {
-  const Comparison comparison = compare(scene, oracle_renderer(), renderer, outputs, 1);
+  Check check(renderer);
+  const auto actual = check.draw(scene, outputs);
+  if (!actual) return check.verdict();
+  const Comparison comparison = compare(scene, exact_image(scene, outputs), *actual, 1);
   Verdict verdict{comparison.samples, comparison.differences, {}};
   if (!comparison.first.empty()) verdict.finding = describe(comparison.first[0], scene.samples);
   return verdict;
@@ -81,7 +132,13 @@ constexpr Property kProperties[] = {
     {"equality-attributes", "I2-I4", "barycentrics and attributes are the oracle's, bit for bit", true, true, 0,
      make_values, decide_all},
     {"equality-scene", "F, V, B1, M", "whole frames with all their state are the oracle's, bit for bit", true, true, 0,
-     make_scene, decide_all},
+     make_scene, decide_all, true},
+    {"equality-samples", "S4, M1", "frames of 2 to 16 samples a pixel are the oracle's, bit for bit", true, true, 0,
+     make_samples, decide_all, true},
+    {"equality-grid", "G1, G2", "frames snapped to a grid are the oracle's, bit for bit", true, true, 0, make_grid,
+     decide_all, true},
+    {"equality-conservative", "M4", "counts of conservative draws are the oracle's", true, true, 0, make_conservative,
+     decide_all},
 };
 
 }  // namespace

@@ -22,44 +22,6 @@ corpus::Scene make_frame(std::uint64_t n) {
   return pixel_scene(n, limits);
 }
 
-// Without what names places of the target, so that the image can move.
-corpus::Scene without_places(corpus::Scene scene) {
-  if (scene.initial_depth.size() > 1) scene.initial_depth = {scene.initial_depth[0]};
-  for (corpus::SceneDraw& draw : scene.draws) {
-    draw.scissor.reset();
-    draw.culling_box.reset();
-  }
-  return scene;
-}
-
-// Both scenes, without the triangles whose vertices `change` cannot map exactly.
-template <class Change>
-std::pair<corpus::Scene, corpus::Scene> changed_exactly(corpus::Scene scene, const Change& change) {
-  corpus::Scene other = scene;
-  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
-    std::vector<bool> exact;
-    for (corpus::SceneVertex& v : other.draws[d].vertices) {
-      const std::optional<Vertex> mapped = change(vertex_of(v));
-      exact.push_back(mapped.has_value());
-      if (mapped) v.x = mapped->x, v.y = mapped->y, v.z = mapped->z, v.w = mapped->w;
-    }
-    for (corpus::Scene* s : {&scene, &other})
-      std::erase_if(s->draws[d].triangles, [&](const corpus::SceneTriangle& t) {
-        return !exact[t.vertices[0]] || !exact[t.vertices[1]] || !exact[t.vertices[2]];
-      });
-  }
-  return {std::move(scene), std::move(other)};
-}
-
-// value + factor * w, if that is a float32 exactly.
-std::optional<float> moved(float value, int factor, float w) {
-  const double a = value, b = static_cast<double>(factor) * static_cast<double>(w), sum = a + b, t = sum - a;
-  if ((a - (sum - t)) + (b - t) != 0 || !std::isfinite(sum)) return std::nullopt;  // Knuth's TwoSum
-  const auto result = static_cast<float>(sum);
-  if (static_cast<double>(result) != sum) return std::nullopt;
-  return result;
-}
-
 // M3, on a rectangle inside of the target.
 Verdict decide_scissor(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
@@ -150,11 +112,7 @@ Verdict decide_translation(const corpus::Scene& scene, const Renderer& renderer)
   Check check(renderer);
   constexpr std::array<int, 2> kShifts[] = {{0, 0}, {1, 0}, {3, 5}, {64, 2}};
   for (const auto& [dx, dy] : kShifts) {
-    auto scenes = changed_exactly(without_places(scene), [&](const Vertex& v) -> std::optional<Vertex> {
-      const auto x = moved(v.x, dx, v.w), y = moved(v.y, dy, v.w);
-      if (!x || !y || !finite(v)) return std::nullopt;
-      return Vertex{*x, *y, v.z, v.w};
-    });
+    auto scenes = changed_exactly(without_places(scene), [&](const Vertex& v) { return moved_exactly(v, dx, dy); });
     scenes.second.width += dx + 2;
     scenes.second.height += dy + 1;
     compare_changed(check, "moved by whole pixels on a larger target", scenes, [&](int x, int y) {
@@ -173,10 +131,8 @@ void flip_facing(corpus::Scene& scene) {
 Verdict decide_mirror(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   const int width = scene.width;
-  auto scenes = changed_exactly(without_places(scene), [&](const Vertex& v) -> std::optional<Vertex> {
-    const auto x = moved(-v.x, width, v.w);
-    if (!x || !finite(v)) return std::nullopt;
-    return Vertex{*x, v.y, v.z, v.w};
+  auto scenes = changed_exactly(without_places(scene), [&](const Vertex& v) {
+    return moved_exactly({-v.x, v.y, v.z, v.w}, width, 0);
   });
   flip_facing(scenes.second);
   for (corpus::SceneDraw& draw : scenes.second.draws)

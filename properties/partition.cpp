@@ -284,6 +284,62 @@ corpus::Scene make_all_around(std::uint64_t seed) {
   return disguised(split_at_random(Splitter(std::move(cones)), r, size), size, r);
 }
 
+// A Delaunay mesh on a grid that it is then snapped to: still a tiling (G3).
+corpus::Scene make_on_grid(std::uint64_t seed) {
+  Random r(seed ^ 0x96D);
+  const Size size = random_size(r);
+  const Grid grid{r.between(1, 8), 0, 0, static_cast<GridRounding>(r.below(3))};
+  std::vector<std::array<float, 2>> points;
+  const auto coordinate = [&](int end) {
+    return std::ldexp(static_cast<float>(r.between(-(3 << grid.bits) / 2, (2 * end + 3) << grid.bits >> 1)),
+                      -grid.bits);
+  };
+  for (const float x : {-1.5f, static_cast<float>(size.width) + 1.5f})
+    for (const float y : {-1.5f, static_cast<float>(size.height) + 1.5f}) points.push_back({x, y});
+  for (int n = r.between(0, 60); n > 0; --n) {
+    const float x = coordinate(size.width);
+    points.push_back({x, coordinate(size.height)});
+  }
+  Mesh mesh;
+  for (const auto& p : points) add(mesh, p[0], p[1]);
+  mesh.triangles = delaunay(points);
+  corpus::Scene scene = disguised(std::move(mesh), size, r);
+  scene.draws[0].grid = grid;
+  return scene;
+}
+
+// A Delaunay mesh that snapping deforms: its triangles all face the viewer, some of them face away when snapped (G3).
+corpus::Scene make_deformed(std::uint64_t seed) {
+  Random r(seed ^ 0xDEF0);
+  const Size size = random_size(r);
+  Mesh mesh = delaunay_mesh(r, size, -1.5f, static_cast<float>(size.width) + 1.5f);
+  corpus::Scene scene = mesh_scene(mesh, size.width, size.height);
+  corpus::SceneDraw& draw = scene.draws[0];
+  for (corpus::SceneTriangle& t : draw.triangles)
+    if (facing(triangle_of(draw, t)) < 0) std::swap(t.vertices[1], t.vertices[2]);
+  draw.fill_rule = static_cast<FillRule>(r.below(8));
+  const int bits[] = {0, 1, 2, 4, 8, 12};
+  draw.grid = Grid{bits[r.below(6)], r.between(0, 15), r.between(0, 15), static_cast<GridRounding>(r.below(3))};
+  if (draw.grid->bits == 0) draw.grid->offset_x = draw.grid->offset_y = 0;  // then snapping moves less than 1.5 px
+  return scene;
+}
+
+Verdict decide_signed(const corpus::Scene& scene, const Renderer& renderer) {
+  Check check(renderer);
+  corpus::Scene front = scene, back = scene;
+  front.draws[0].cull = Cull::back;
+  back.draws[0].cull = Cull::front;
+  const auto fronts = check.draw(front, kCountOnly), backs = check.draw(back, kCountOnly);
+  if (!fronts || !backs) return check.verdict();
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      const std::size_t e = element(*fronts, x, y);
+      check.expect_count("front of a snapped tiling, against 1 + back,", x, y, 1 + backs->count[e], fronts->count[e]);
+    }
+  check.looked_at(fronts->count.size());
+  return check.verdict();
+}
+
 Verdict decide(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   const auto image = check.draw(scene, kCountOnly);
@@ -307,6 +363,10 @@ constexpr Property kProperties[] = {
      make_t_junctions, decide},
     {"partition-all-around", "T1", "triangles all around the eye cover each sample once", false, false, 0,
      make_all_around, decide},
+    {"grid-partition", "G3, T1", "tilings on the grid that they are snapped to cover each sample once", false, false, 0,
+     make_on_grid, decide},
+    {"grid-degree", "G3", "over tilings that snapping deforms, front minus back is 1", false, false, 0, make_deformed,
+     decide_signed},
 };
 
 }  // namespace

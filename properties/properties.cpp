@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "properties/properties.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdio>
+#include <limits>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,7 +15,21 @@
 namespace surefill::properties {
 
 std::optional<corpus::Image> Check::draw(const corpus::Scene& scene, const corpus::Outputs& outputs) {
+  return draw_over(0, scene, outputs);
+}
+
+std::optional<corpus::Image> Check::draw_over(std::uint32_t garbage, const corpus::Scene& scene,
+                                              const corpus::Outputs& outputs) {
   corpus::Frame frame(scene, outputs);
+  if (garbage != 0) {
+    corpus::Image& image = frame.image();
+    for (std::vector<std::uint32_t>* buffer : {&image.count, &image.index})
+      std::fill(buffer->begin(), buffer->end(), garbage);
+    for (std::vector<float>* buffer : {&image.depth, &image.barycentrics})
+      std::fill(buffer->begin(), buffer->end(), std::bit_cast<float>(garbage));
+    for (std::vector<float>& buffer : image.attributes)
+      std::fill(buffer.begin(), buffer.end(), std::bit_cast<float>(garbage));
+  }
   const Status status = renderer_(frame.target(), frame.draws());
   if (status != Status::ok) {
     differs("the renderer returned \"" + std::string(status_text(status)) + "\"");
@@ -144,12 +161,83 @@ std::optional<Vertex> scaled_exactly(const Vertex& vertex, int exponent) {
   return result;
 }
 
+// Knuth's TwoSum.
+std::optional<double> exact_sum(double a, double b) {
+  const double sum = a + b, t = sum - a;
+  if ((a - (sum - t)) + (b - t) != 0 || !std::isfinite(sum)) return std::nullopt;
+  return sum;
+}
+
+std::optional<float> exact_float_sum(double a, double b) {
+  const std::optional<double> sum = exact_sum(a, b);
+  if (!sum || std::abs(*sum) > static_cast<double>(std::numeric_limits<float>::max())) return std::nullopt;
+  const auto result = static_cast<float>(*sum);
+  if (static_cast<double>(result) != *sum) return std::nullopt;
+  return result;
+}
+
+std::optional<Vertex> moved_exactly(const Vertex& v, double dx, double dy) {
+  const double w = v.w;
+  const auto x = exact_float_sum(v.x, dx * w), y = exact_float_sum(v.y, dy * w);
+  if (!x || !y || !finite(v)) return std::nullopt;
+  return Vertex{*x, *y, v.z, v.w};
+}
+
+std::pair<corpus::Scene, corpus::Scene> changed_exactly(corpus::Scene scene, const VertexChange& change) {
+  corpus::Scene other = scene;
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    std::vector<bool> exact;
+    for (corpus::SceneVertex& v : other.draws[d].vertices) {
+      const std::optional<Vertex> mapped = change(vertex_of(v));
+      exact.push_back(mapped.has_value());
+      if (mapped) v.x = mapped->x, v.y = mapped->y, v.z = mapped->z, v.w = mapped->w;
+    }
+    for (corpus::Scene* s : {&scene, &other})
+      std::erase_if(s->draws[d].triangles, [&](const corpus::SceneTriangle& t) {
+        return !exact[t.vertices[0]] || !exact[t.vertices[1]] || !exact[t.vertices[2]];
+      });
+  }
+  return {std::move(scene), std::move(other)};
+}
+
+corpus::Scene without_places(corpus::Scene scene) {
+  if (scene.initial_depth.size() > 1) scene.initial_depth = {scene.initial_depth[0]};
+  for (corpus::SceneDraw& draw : scene.draws) {
+    draw.scissor.reset();
+    draw.culling_box.reset();
+  }
+  return scene;
+}
+
+corpus::Scene without_attributes(corpus::Scene scene) {
+  scene.attributes.clear();
+  for (corpus::SceneDraw& draw : scene.draws)
+    for (corpus::SceneVertex& v : draw.vertices) v.attributes.clear();
+  return scene;
+}
+
+corpus::Scene sampled_case(const Property& property, std::uint64_t n) {
+  return property.make(property.exhaustive == 0 ? n : Random(n).bits() % property.exhaustive);
+}
+
+std::uint64_t affordable_cases(const Property& property, std::uint64_t cases) {
+  const std::string_view name = property.name;
+  std::uint64_t times = 1;
+  if (name == "degree-spot") times = 50;
+  if (name == "equality-wide" || name == "target-size") times = 4;
+  if (name == "small-world-eighth-pixel") times = 40;
+  if (name == "small-world-half-pixel-4" || name == "small-world-quarter-pixel" ||
+      name == "small-world-homogeneous-rules")
+    times = 10;
+  return std::max<std::uint64_t>(1, cases / times);
+}
+
 std::span<const Property> all_properties() {
   static const std::vector<Property> all = [] {
     std::vector<Property> joined;
     for (const std::span<const Property> list :
-         {equality_properties(), partition_properties(), degree_properties(), symmetry_properties(), value_properties(),
-          frame_properties(), small_world_properties()})
+         {equality_properties(), partition_properties(), degree_properties(), symmetry_properties(), split_properties(),
+          value_properties(), frame_properties(), call_properties(), mode_properties(), small_world_properties()})
       joined.insert(joined.end(), list.begin(), list.end());
     return joined;
   }();

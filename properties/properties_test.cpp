@@ -99,7 +99,9 @@ TEST_P(EngineHolds, InEveryCase) {
                  [&](const corpus::Scene& scene) { return property.decide(scene, engine); });
     return;
   }
-  for (std::uint64_t n = 0; n < property.exhaustive; ++n) {
+  // Of the largest world a part; `surefill certify --level standard` walks through it whole.
+  const std::uint64_t step = property.exhaustive > 500000 ? 29 : 1;
+  for (std::uint64_t n = 0; n < property.exhaustive; n += step) {
     corpus::Scene scene = property.make(n);
     if (property.decide(scene, engine).differences == 0) continue;
     const auto fails = [&](const corpus::Scene& s) { return property.decide(s, engine).differences != 0; };

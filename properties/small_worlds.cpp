@@ -1,8 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Every case there is of a small world. In them, ties, degenerate triangles and vertices on samples are the rule.
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
 
 #include "properties/check.hpp"
 
@@ -114,6 +119,152 @@ Verdict decide_shared_edge(const corpus::Scene& scene, const Renderer& renderer)
   return check.verdict();
 }
 
+// Worlds of millions of triangles, by integers alone. A case is two vertices and a rule; its frame has a triangle for
+// every third vertex, each in a cell of its own, so that one frame decides them all.
+
+// Every triangle on a lattice of 1/q pixel over `cell` x `cell` pixels, borders included: none leaves its cell.
+corpus::Scene lattice_world(std::uint64_t number, int q, int cell) {
+  const int side = q * cell + 1, points = side * side;
+  corpus::Scene scene;
+  scene.width = cell * points;
+  scene.height = cell;
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  draw.fill_rule = static_cast<FillRule>(digit(number, 8));
+  const auto base = static_cast<std::uint64_t>(points);
+  const int first = static_cast<int>(digit(number, base)), second = static_cast<int>(digit(number, base));
+  for (int third = 0; third < points; ++third) {
+    const auto start = static_cast<std::uint32_t>(draw.vertices.size());
+    for (const int point : {first, second, third})
+      draw.vertices.push_back(
+          {static_cast<float>(point % side) / static_cast<float>(q) + static_cast<float>(cell * third),
+           static_cast<float>(point / side) / static_cast<float>(q),
+           0,
+           1,
+           {}});
+    draw.triangles.push_back({{start, start + 1, start + 2}, std::nullopt});
+  }
+  return scene;
+}
+constexpr std::uint64_t lattice_cases(std::uint64_t q, std::uint64_t cell) {
+  const std::uint64_t points = (q * cell + 1) * (q * cell + 1);
+  return points * points * 8;
+}
+corpus::Scene make_half_4(std::uint64_t number) {
+  return lattice_world(number, 2, 4);
+}
+corpus::Scene make_quarter_2(std::uint64_t number) {
+  return lattice_world(number, 4, 2);
+}
+corpus::Scene make_eighth_2(std::uint64_t number) {
+  return lattice_world(number, 8, 2);
+}
+
+// (X, Y, W) over {-1, 0, 1, 2}^3 under every rule: a draw for every third vertex, in a scissor of 3 x 3 pixels.
+constexpr std::uint64_t kHomogeneousRules = 64 * 64 * 8;
+corpus::Scene make_homogeneous_rules(std::uint64_t number) {
+  constexpr int kCell = 3;
+  corpus::Scene scene;
+  scene.width = 64 * kCell;
+  scene.height = kCell;
+  const auto rule = static_cast<FillRule>(digit(number, 8));
+  const std::uint32_t first = digit(number, 64), second = digit(number, 64);
+  for (std::uint32_t third = 0; third < 64; ++third) {
+    corpus::SceneDraw& draw = scene.draws.emplace_back();
+    draw.fill_rule = rule;
+    const int left = static_cast<int>(third) * kCell;
+    draw.scissor = Scissor{left, 0, left + kCell, kCell};
+    for (const std::uint32_t point : {first, second, third}) {
+      const float w = static_cast<float>(point >> 4) - 1, x = static_cast<float>(point & 3u) - 1;
+      draw.vertices.push_back({x + w * static_cast<float>(left), static_cast<float>(point >> 2 & 3u) - 1, 0, w, {}});
+    }
+    draw.triangles.push_back({{0, 1, 2}, std::nullopt});
+  }
+  return scene;
+}
+
+using Whole = std::array<std::int64_t, 3>;  // (X, Y, W)
+
+// In eighths, if they are whole and small: then the determinants below fit.
+std::optional<Whole> in_eighths(const Vertex& v) {
+  Whole result{};
+  const float components[] = {v.x, v.y, v.w};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float eighths = components[i] * 8;
+    if (!(std::abs(eighths) < 65536) || eighths != std::floor(eighths)) return std::nullopt;
+    result[i] = static_cast<std::int64_t>(eighths);
+  }
+  return result;
+}
+
+Whole edge_between(const Whole& j, const Whole& k) {
+  return {j[1] * k[2] - j[2] * k[1], j[2] * k[0] - j[0] * k[2], j[0] * k[1] - j[1] * k[0]};
+}
+std::int64_t value_at(const Whole& edge, const Whole& point) {
+  return edge[0] * point[0] + edge[1] * point[1] + edge[2] * point[2];
+}
+int sign_of(std::int64_t value) {
+  return (value > 0) - (value < 0);
+}
+
+// C1 to C3, word by word.
+bool covers(const std::array<Whole, 3>& edges, int determinant, int x, int y, FillRule rule) {
+  const auto number = static_cast<unsigned>(rule);
+  const int along_x = (number & 1u) == 0 ? 1 : -1, along_y = (number & 2u) == 0 ? 1 : -1;
+  return std::all_of(edges.begin(), edges.end(), [&](const Whole& e) {
+    int sign = sign_of(value_at(e, {2 * x + 1, 2 * y + 1, 2}));
+    const int tie_x = sign_of(e[0]) * along_x, tie_y = sign_of(e[1]) * along_y;
+    if (sign == 0) sign = number < 4 ? (tie_x != 0 ? tie_x : tie_y) : (tie_y != 0 ? tie_y : tie_x);
+    return sign == determinant;
+  });
+}
+
+Verdict decide_by_integers(const corpus::Scene& scene, const Renderer& renderer) {
+  Check check(renderer);
+  std::vector<std::uint32_t> expected(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
+  for (const corpus::SceneDraw& draw : scene.draws)
+    for (const corpus::SceneTriangle& triangle : draw.triangles) {
+      const std::array<Vertex, 3> t = triangle_of(draw, triangle);
+      std::array<Whole, 3> m{};
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto whole = in_eighths(t[i]);
+        if (!whole) return check.verdict();  // a simpler case, no more of this world
+        m[i] = *whole;
+      }
+      const std::array<Whole, 3> edges = {edge_between(m[1], m[2]), edge_between(m[2], m[0]), edge_between(m[0], m[1])};
+      const int determinant = sign_of(value_at(edges[0], m[0]));
+      if (determinant == 0) continue;
+      Scissor box = draw.scissor.value_or(Scissor{0, 0, scene.width, scene.height});
+      if (t[0].w == 1 && t[1].w == 1 && t[2].w == 1)
+        for (std::size_t axis = 0; axis < 2; ++axis) {
+          const auto [low, high] = std::minmax({m[0][axis], m[1][axis], m[2][axis]});
+          int& begin = axis == 0 ? box.x0 : box.y0;
+          int& end = axis == 0 ? box.x1 : box.y1;
+          begin = std::max(begin, static_cast<int>(low / 8) - 1);
+          end = std::min(end, static_cast<int>(high / 8) + 1);
+        }
+      for (int y = std::max(0, box.y0); y < std::min(scene.height, box.y1); ++y)
+        for (int x = std::max(0, box.x0); x < std::min(scene.width, box.x1); ++x)
+          if (covers(edges, determinant, x, y, draw.fill_rule))
+            ++expected[static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) +
+                       static_cast<std::size_t>(x)];
+    }
+  corpus::Scene plain = scene;
+  for (corpus::SceneDraw& draw : plain.draws) {
+    draw.cull = Cull::none;
+    draw.depth_mode = DepthMode::none;
+    draw.grid.reset();
+  }
+  const auto image = check.draw(plain, kCountOnly);
+  if (!image || image->samples != 1) return check.verdict();
+  check.looked_at(expected.size());
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      const std::size_t e = element(*image, x, y);
+      if (image->count[e] != expected[e]) check.expect_count("count", x, y, expected[e], image->count[e]);
+    }
+  return check.verdict();
+}
+
 constexpr Property kProperties[] = {
     {"small-world-homogeneous", "C1-C4", "every triangle over {-1, 0, 1, 2}^3 in (X, Y, W) is the oracle's on 4 x 4",
      true, true, kHomogeneous, make_homogeneous, decide_all},
@@ -126,6 +277,19 @@ constexpr Property kProperties[] = {
     {"small-world-shared-edge", "T1",
      "every two triangles that share an edge on a half-pixel lattice neither overlap nor gape", false, true,
      kSharedEdge, make_shared_edge, decide_shared_edge},
+    {"small-world-homogeneous-rules", "C1-C3",
+     "each of the 2,097,152 triangles over {-1, 0, 1, 2}^3 under the eight fill rules covers what integers say on 3 x "
+     "3",
+     false, true, kHomogeneousRules, make_homogeneous_rules, decide_by_integers},
+    {"small-world-half-pixel-4", "C1-C3",
+     "each of the 4,251,528 triangles on the half-pixel lattice of 4 x 4 under the eight fill rules, by integers",
+     false, true, lattice_cases(2, 4), make_half_4, decide_by_integers},
+    {"small-world-quarter-pixel", "C1-C3",
+     "each of the 4,251,528 triangles on the quarter-pixel lattice of 2 x 2 under the eight fill rules, by integers",
+     false, true, lattice_cases(4, 2), make_quarter_2, decide_by_integers},
+    {"small-world-eighth-pixel", "C1-C3",
+     "each of the 193,100,552 triangles on the eighth-pixel lattice of 2 x 2 under the eight fill rules, by integers",
+     false, true, lattice_cases(8, 2), make_eighth_2, decide_by_integers},
 };
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -33,18 +34,11 @@ void show_depth(corpus::Scene& scene) {
   }
 }
 
-void clear_attributes(corpus::Scene& scene) {
-  scene.attributes.clear();
-  for (corpus::SceneDraw& draw : scene.draws)
-    for (corpus::SceneVertex& v : draw.vertices) v.attributes.clear();
-}
-
 // sum X_i E_i = px D: depth reproduces position.
 Verdict decide_position(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   for (const int component : {0, 1, 2}) {
-    corpus::Scene changed = scene;
-    clear_attributes(changed);
+    corpus::Scene changed = without_attributes(scene);
     show_depth(changed);
     for (corpus::SceneDraw& draw : changed.draws)
       for (corpus::SceneVertex& v : draw.vertices) v.z = component == 0 ? v.x : component == 1 ? v.y : v.w;
@@ -63,26 +57,19 @@ Verdict decide_position(const corpus::Scene& scene, const Renderer& renderer) {
   return check.verdict();
 }
 
-// a - b where it is a float32, exactly.
-bool exact_difference(double a, double b, float& difference) {
-  const double d = a - b, t = d - a;
-  if ((a - (d - t)) - (b + t) != 0) return false;  // Knuth's TwoSum: the rounding error
-  difference = static_cast<float>(d);
-  return std::isfinite(d) && static_cast<double>(difference) == d;
-}
-
 // With Z := X - (c + 1/2) W the depth in column x is x - c: 0 and 1, exactly, in columns c and c + 1.
 Verdict decide_clip(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   const int column = scene.width / 2;
-  corpus::Scene open = scene;
-  clear_attributes(open);
+  corpus::Scene open = without_attributes(scene);
   show_depth(open);
   for (corpus::SceneDraw& draw : open.draws)
     std::erase_if(draw.triangles, [&](const corpus::SceneTriangle& t) {
       return !std::all_of(t.vertices.begin(), t.vertices.end(), [&](std::uint32_t i) {
         corpus::SceneVertex& v = draw.vertices[i];
-        return finite(vertex_of(v)) && exact_difference(v.x, (column + 0.5) * v.w, v.z);
+        const auto z = exact_float_sum(v.x, -(column + 0.5) * v.w);
+        if (z) v.z = *z;
+        return finite(vertex_of(v)) && z;
       });
     });
   corpus::Scene clipped = open, clamped = open;
@@ -177,8 +164,7 @@ Verdict decide_range(const corpus::Scene& scene, const Renderer& renderer) {
 Verdict decide_routes(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   for (const bool unit_w : {true, false}) {
-    corpus::Scene changed = scene;
-    clear_attributes(changed);
+    corpus::Scene changed = without_attributes(scene);
     show_depth(changed);
     changed.attributes = {{"perspective", 1, Interpolation::perspective},
                           {"noperspective", 1, Interpolation::noperspective},
@@ -216,6 +202,43 @@ Verdict decide_routes(const corpus::Scene& scene, const Renderer& renderer) {
   return check.verdict();
 }
 
+// I2: u := X, Y, W. u_X = px D / sum E and u_W = D / sum E, so u_X = px u_W up to the rounding of each: their intervals
+// of rounding meet.
+Verdict decide_position_attributes(const corpus::Scene& scene, const Renderer& renderer) {
+  Check check(renderer);
+  corpus::Scene changed = without_attributes(scene);
+  show_depth(changed);
+  changed.attributes = {{"position", 3, Interpolation::perspective}};
+  for (corpus::SceneDraw& draw : changed.draws)
+    for (corpus::SceneVertex& v : draw.vertices) v.attributes = {v.x, v.y, v.w};
+  const auto image = check.draw(changed, outputs_of(changed));
+  if (!image || image->index.empty()) return check.verdict();
+  // Half the distance to the next float32 on either side, and a factor for doubles' own rounding: a bound, no
+  // tolerance.
+  const auto half_step = [](float value) {
+    const float away = std::nextafter(std::abs(value), std::numeric_limits<float>::infinity());
+    return (static_cast<double>(away) - static_cast<double>(std::abs(value))) / 2 * (1 + 0x1p-20);
+  };
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  for (int y = 0; y < scene.height; ++y)
+    for (int x = 0; x < scene.width; ++x) {
+      const std::size_t e = element(*image, x, y);
+      if (image->index[e] == kNoTriangle) continue;
+      const float w = image->attributes[0][3 * e + 2];
+      for (std::size_t i = 0; i < 2; ++i) {
+        const float u = image->attributes[0][3 * e + i];
+        if (std::abs(u) == kLargest || std::abs(w) == kLargest) continue;  // beyond range
+        check.looked_at(1);
+        const double position = (i == 0 ? x : y) + 0.5;
+        const double expected = position * static_cast<double>(w);
+        if (!(std::abs(static_cast<double>(u) - expected) <= half_step(u) + position * half_step(w)))
+          check.differs("attribute X or Y over attribute W", x, y, std::to_string(position),
+                        text(u) + " over " + text(w));
+      }
+    }
+  return check.verdict();
+}
+
 constexpr Property kProperties[] = {
     {"depth-is-position", "I1", "depth of Z := X, Y or W is px, py or 1 to the bit", false, true, 0, make_frame,
      decide_position},
@@ -225,6 +248,8 @@ constexpr Property kProperties[] = {
      false, true, 0, make_frame, decide_range},
     {"interpolation-routes", "I1-I3", "depth, attributes and barycentrics agree to the bit where they are one function",
      false, true, 0, make_frame, decide_routes},
+    {"attributes-are-positions", "I2", "attributes X, Y over attribute W are px, py within their rounding", false, true,
+     0, make_frame, decide_position_attributes},
 };
 
 }  // namespace

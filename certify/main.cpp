@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "certify/checks.hpp"
+#include "certify/corpus_add.hpp"
 #include "certify/explain.hpp"
 #include "certify/files.hpp"
 #include "certify/mesh.hpp"
@@ -403,6 +404,16 @@ int run(int argc, char** argv) {
   explain_command->add_option("--triangle", explain_options.triangle, "Number of the triangle to show (0)");
   explain_command->add_flag("--counts", explain_options.counts, "Print the table of counts; no picture");
 
+  CorpusAddOptions corpus_options;
+  CLI::App* corpus_command = app.add_subcommand("corpus", "The cases that the suite holds engines to");
+  corpus_command->require_subcommand(1);
+  CLI::App* add_command = corpus_command->add_subcommand("add", "Make a finding a case, unless the corpus has it");
+  add_command->add_option("FINDING", corpus_options.finding, "The scene, best after `surefill reduce`")->required();
+  add_command->add_option("--origin", corpus_options.origin, "Where it was found, in a line")->required();
+  add_command->add_option("--name", corpus_options.name, "Of the case (the finding's file name)");
+  add_command->add_option("--group", corpus_options.group, "Folder within cases/ (found)");
+  add_command->add_option("--corpus", corpus_options.corpus, "Folder of cases/ and meshes/");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -420,6 +431,11 @@ int run(int argc, char** argv) {
     return kGood;
   }
   if (replay_command->parsed()) return run_replay(replay_files, replay_options);
+  if (add_command->parsed()) {
+    if (corpus_options.corpus.empty()) corpus_options.corpus = find_corpus();
+    print(add_to_corpus(corpus_options) + "\n");
+    return kGood;
+  }
   return run_reduce(reduce_options);
 }
 

@@ -192,6 +192,10 @@ std::vector<Check> list_checks(const Settings& settings) {
   add_random_checks(settings, checks);
   add_property_checks(settings, checks);
   add_contract_checks(settings, checks);
+  for (Check& check : checks) {
+    check.expected = properties::oracle_renderer();
+    check.actual = check.replay_option == "--second-oracle" ? properties::clipped_oracle_renderer() : settings.engine;
+  }
   return checks;
 }
 

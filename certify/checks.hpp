@@ -4,6 +4,7 @@
 #ifndef SUREFILL_CERTIFY_CHECKS_HPP
 #define SUREFILL_CERTIFY_CHECKS_HPP
 
+#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -27,10 +28,28 @@ struct Settings {
   Support support;  // of the engine
 };
 
+// The largest error of a kind of value: in ULP, and as a share of what the profile grants.
+struct Deviation {
+  double ulp = 0, granted = 0;
+  void take(const Deviation& other) {
+    ulp = std::max(ulp, other.ulp);
+    granted = std::max(granted, other.granted);
+  }
+};
+struct Deviations {
+  Deviation depth, barycentrics, attributes;
+  void take(const Deviations& other) {
+    depth.take(other.depth);
+    barycentrics.take(other.barycentrics);
+    attributes.take(other.attributes);
+  }
+};
+
 struct CaseResult {
   std::uint64_t samples = 0;
   std::uint64_t differences = 0;
   bool skipped = false;                // the engine lacks a mode that the case needs
+  Deviations deviations;               // of a rival whose profile is not exact
   std::string finding;                 // one line, where it differs
   std::optional<corpus::Scene> scene;  // that shows it, where there is one
 };
@@ -49,6 +68,11 @@ struct Check {
   // Does a simpler scene show a difference of this kind, too? Empty: a finding is kept as it is.
   std::function<bool(const corpus::Scene&)> still_fails;
   std::string replay_option;  // that `surefill replay` needs to show the difference
+  std::string group;          // the verdict that it belongs to, where there are several
+  // The first difference on a scene in words; empty: as `judge` has it.
+  std::function<std::string(const corpus::Scene&)> describe;
+  // Who is held against whom, for pictures of a finding.
+  properties::Renderer expected, actual;
 };
 
 // A check that still needs its cases.

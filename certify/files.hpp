@@ -31,6 +31,9 @@ void write_file(const std::string& path, std::string_view bytes);
 // that nobody else takes it. Throws FileError.
 std::string reserve_path(const std::string& directory, const std::string& stem, const std::string& extension);
 
+// A path or a word as a shell takes it.
+std::string shell_word(const std::string& path);
+
 }  // namespace surefill::certify
 
 #endif  // SUREFILL_CERTIFY_FILES_HPP

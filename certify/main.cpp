@@ -2,7 +2,6 @@
 //
 // The surefill command.
 #include <fmt/format.h>
-#include <fnmatch.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -19,16 +18,20 @@
 #include <thread>
 #include <vector>
 
-#include "certify/checks.hpp"
+#include "certify/adapters/host.hpp"
+#include "certify/adapters/rival.hpp"
+#include "certify/certify_command.hpp"
 #include "certify/corpus_add.hpp"
 #include "certify/explain.hpp"
 #include "certify/files.hpp"
+#include "certify/judge.hpp"
 #include "certify/mesh.hpp"
 #include "certify/picture.hpp"
+#include "certify/profile.hpp"
 #include "certify/progress.hpp"
 #include "certify/replay.hpp"
 #include "certify/report.hpp"
-#include "certify/runner.hpp"
+#include "certify/rival_checks.hpp"
 #include "certify/zoo.hpp"
 #include "corpus/scene.hpp"
 #include "oracle/oracle.hpp"
@@ -37,23 +40,8 @@
 namespace surefill::certify {
 namespace {
 
-// Exit statuses of every subcommand.
-constexpr int kGood = 0, kBad = 1, kUsage = 2, kInterrupted = 130;
-
-// Wrong usage or input that cannot be used. what() is one line.
-class UsageError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 int all_cores() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-}
-
-void print(const std::string& text) {
-  if (std::fwrite(text.data(), 1, text.size(), stdout) != text.size() || std::fflush(stdout) != 0) {
-    throw FileError("standard output: cannot be written");
-  }
 }
 
 void warn(const std::string& text) {
@@ -181,14 +169,6 @@ int run_render(const RenderOptions& options) {
 // --- certify
 // ----------------------------------------------------------------------------------------------------------
 
-struct CertifyOptions {
-  std::string level = "quick", json, output_directory = ".", corpus;
-  std::vector<std::string> only;
-  std::uint64_t seed = 1;
-  int jobs = all_cores();
-  bool list = false;
-};
-
 // The corpus that was compiled in, or one that lies beside the program or where an installation puts it.
 std::string find_corpus() {
   std::vector<std::filesystem::path> places{SUREFILL_CORPUS};
@@ -204,64 +184,20 @@ std::string find_corpus() {
   throw UsageError("no corpus found; name its folder with --corpus");
 }
 
-// The checks whose names match a pattern; every pattern must match one.
-std::vector<Check> selected(std::vector<Check> checks, const std::vector<std::string>& patterns) {
-  if (patterns.empty()) return checks;
-  const auto matches = [](const std::string& pattern, const Check& check) {
-    return fnmatch(pattern.c_str(), check.name.c_str(), 0) == 0;
-  };
-  for (const std::string& pattern : patterns) {
-    if (std::none_of(checks.begin(), checks.end(), [&](const Check& check) { return matches(pattern, check); })) {
-      throw UsageError("--only " + pattern + ": no check has this name (--list shows them)");
-    }
-  }
-  std::erase_if(checks, [&](const Check& check) {
-    return std::none_of(patterns.begin(), patterns.end(),
-                        [&](const std::string& pattern) { return matches(pattern, check); });
-  });
-  return checks;
-}
-
-int run_certify(const CertifyOptions& options) {
-  Settings settings;
-  settings.level = options.level == "quick"      ? Level::quick
-                   : options.level == "standard" ? Level::standard
-                                                 : Level::thorough;
-  settings.seed = options.seed;
-  settings.engine = properties::engine_renderer();
-  if (options.list) {
-    for (const Check& check : selected(list_checks(settings), options.only)) {
-      print(fmt::format("{}: {} [{}]\n", check.name, check.claim, check.rule));
-    }
-    return kGood;
-  }
-  settings.corpus = options.corpus.empty() ? find_corpus() : options.corpus;
-  settings.support = probe_support(settings.engine);
-  if (!options.json.empty()) check_writable(options.json);
-  check_folder(options.output_directory);
-  std::vector<Check> checks = selected(list_checks(settings), options.only);
-
-  catch_interrupts();
-  const auto start = std::chrono::steady_clock::now();
-  const std::vector<CheckResult> results =
-      run_checks(settings, checks, {options.jobs, options.output_directory},
-                 [&settings](const CheckResult& result) { print(check_line(result, settings.seed)); });
-  Facts facts = build_facts();
-  facts.level = options.level;
-  facts.seed = options.seed;
-  facts.jobs = options.jobs;
-  facts.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  facts.interrupted = interrupted();
-  print(verdict_block(results, facts));
-  if (!options.json.empty()) write_file(options.json, certificate_json(results, facts));
-  if (facts.interrupted) return kInterrupted;
-  return verdict_of(results, facts) == Verdict::certified ? kGood : kBad;
-}
-
 // --- replay and reduce
 // ------------------------------------------------------------------------------------------------
 
-int run_replay(const std::vector<std::string>& files, const ReplayOptions& options) {
+// A rival under the model that it declares or that probing finds.
+std::unique_ptr<adapters::Rival> met_rival(const RivalChoice& choice) {
+  if (!choice.chosen()) return nullptr;
+  std::unique_ptr<adapters::Rival> rival = start_rival(choice);
+  meet_rival(*rival);
+  return rival;
+}
+
+int run_replay(const std::vector<std::string>& files, ReplayOptions options, const RivalChoice& choice) {
+  const std::unique_ptr<adapters::Rival> rival = met_rival(choice);
+  options.rival = rival.get();
   bool equal = true;
   for (const std::string& file : files) {
     const Replay answer = replay(corpus::read_scene_file(file), file, options);
@@ -275,6 +211,7 @@ struct ReduceOptions {
   std::string input, output;
   bool second_oracle = false;
   int seconds = 60;
+  RivalChoice rival;
 };
 
 int run_reduce(const ReduceOptions& options) {
@@ -282,7 +219,9 @@ int run_reduce(const ReduceOptions& options) {
   corpus::Scene scene = corpus::read_scene_file(options.input);
   const properties::Renderer other =
       options.second_oracle ? properties::clipped_oracle_renderer() : properties::engine_renderer();
-  const auto fails = [&other](const corpus::Scene& simpler) {
+  const std::unique_ptr<adapters::Rival> rival = met_rival(options.rival);
+  const auto fails = [&other, &rival](const corpus::Scene& simpler) {
+    if (rival) return !interrupted() && valid(simpler) && compare_rival(simpler, *rival).differences > 0;
     return !interrupted() && valid(simpler) && judge(simpler, properties::oracle_renderer(), other, 0).differences > 0;
   };
   if (!fails(scene)) {
@@ -352,17 +291,18 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember({"engine", "oracle"}));
 
   CertifyOptions certify_options;
-  CLI::App* certify_command = app.add_subcommand("certify", "Hold the engine against the exact answer");
-  certify_command->add_option("--level", certify_options.level, "quick (seconds), standard (minutes) or thorough")
-      ->check(CLI::IsMember({"quick", "standard", "thorough"}));
-  certify_command->add_option("--seed", certify_options.seed, "Of the sampled cases (1)");
-  certify_command->add_option("--only", certify_options.only, "Names of checks, with * and ?, separated by commas")
-      ->delimiter(',');
-  certify_command->add_flag("--list", certify_options.list, "Name the checks and what they claim; run none");
-  certify_command->add_option("--json", certify_options.json, "Write the certificate there, too, as JSON");
-  certify_command->add_option("--output-dir", certify_options.output_directory, "Folder for reduced scenes (.)");
-  certify_command->add_option("--jobs", certify_options.jobs, "Threads (all cores)")->check(CLI::Range(1, 4096));
-  certify_command->add_option("--corpus", certify_options.corpus, "Folder of cases/ and meshes/");
+  CLI::App* certify_command = app.add_subcommand("certify", "Hold the engine, or a rival, against the exact answer");
+  certify_options.jobs = all_cores();
+  add_certify_options(*certify_command, certify_options);
+
+  MergeOptions merge_options;
+  CLI::App* merge_command = app.add_subcommand("merge", "Join the certificates of all shards of a run");
+  add_merge_options(*merge_command, merge_options);
+
+  std::string plugin, plugin_arguments;  // the process that certify starts for a plugin
+  CLI::App* host_command = app.add_subcommand("plugin-host", "")->group("");
+  host_command->add_option("FILE", plugin)->required();
+  host_command->add_option("ARGUMENTS", plugin_arguments);
 
   std::vector<std::string> replay_files;
   ReplayOptions replay_options;
@@ -371,23 +311,16 @@ int run(int argc, char** argv) {
   replay_command->add_flag("--all", replay_options.all, "Show every sample, not only those that differ");
   replay_command->add_flag("--second-oracle", replay_options.second_oracle, "Hold the second oracle against the first");
 
+  RivalChoice replay_rival;
+  add_rival_options(*replay_command, replay_rival);
+
   ReduceOptions reduce_options;
   CLI::App* reduce_command = app.add_subcommand("reduce", "Make a scene whose answers differ as small as it goes");
   reduce_command->add_option("FILE", reduce_options.input, "The scene")->required();
   reduce_command->add_option("-o,--output", reduce_options.output, "The smaller scene to write")->required();
   reduce_command->add_flag("--second-oracle", reduce_options.second_oracle, "The two oracles differ, not the engine");
+  add_rival_options(*reduce_command, reduce_options.rival);
   reduce_command->add_option("--seconds", reduce_options.seconds, "Time it may take (60)")->check(CLI::Range(1, 86400));
-
-  ZooArguments zoo_arguments;
-  zoo_arguments.options.jobs = all_cores();
-  zoo_arguments.options.cases = 2000;
-  CLI::App* zoo_command =
-      app.add_subcommand("zoo", "Hold wrong rasterizers against every property: all must be killed");
-  zoo_command->add_option("--cases", zoo_arguments.options.cases, "Of each property (2000)")
-      ->check(CLI::Range(1, 100000000));
-  zoo_command->add_option("--markdown", zoo_arguments.markdown, "Write the table there")
-      ->needs(zoo_command->add_option("--picture", zoo_arguments.picture, "Draw the matrix there, as SVG"));
-  zoo_command->add_option("--jobs", zoo_arguments.options.jobs, "Threads (all cores)")->check(CLI::Range(1, 4096));
 
   ExplainOptions explain_options;
   CLI::App* explain_command = app.add_subcommand("explain", "Picture how the techniques of the textbook see a scene");
@@ -414,6 +347,17 @@ int run(int argc, char** argv) {
   add_command->add_option("--group", corpus_options.group, "Folder within cases/ (found)");
   add_command->add_option("--corpus", corpus_options.corpus, "Folder of cases/ and meshes/");
 
+  ZooArguments zoo_arguments;
+  zoo_arguments.options.jobs = all_cores();
+  zoo_arguments.options.cases = 2000;
+  CLI::App* zoo_command =
+      app.add_subcommand("zoo", "Hold wrong rasterizers against every property: all must be killed");
+  zoo_command->add_option("--cases", zoo_arguments.options.cases, "Of each property (2000)")
+      ->check(CLI::Range(1, 100000000));
+  zoo_command->add_option("--markdown", zoo_arguments.markdown, "Write the table there")
+      ->needs(zoo_command->add_option("--picture", zoo_arguments.picture, "Draw the matrix there, as SVG"));
+  zoo_command->add_option("--jobs", zoo_arguments.options.jobs, "Threads (all cores)")->check(CLI::Range(1, 4096));
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -421,16 +365,18 @@ int run(int argc, char** argv) {
     throw UsageError(one_line(error.what()) + " (--help shows the usage)");
   }
   if (app.get_subcommands().empty()) {
-    throw UsageError("a subcommand is needed: render, certify, replay, reduce, explain or zoo (--help shows the usage)");
+    throw UsageError("a subcommand is needed: render, certify, merge, replay, reduce, explain or zoo (--help shows the usage)");
   }
   if (render_command->parsed()) return run_render(render_options);
-  if (certify_command->parsed()) return run_certify(certify_options);
-  if (zoo_command->parsed()) return run_zoo(zoo_arguments);
+  if (certify_command->parsed()) return run_certify(certify_options, find_corpus);
+  if (merge_command->parsed()) return run_merge(merge_options);
+  if (host_command->parsed()) return adapters::host_plugin(plugin, plugin_arguments);
   if (explain_command->parsed()) {
     print(explain(explain_options));
     return kGood;
   }
-  if (replay_command->parsed()) return run_replay(replay_files, replay_options);
+  if (zoo_command->parsed()) return run_zoo(zoo_arguments);
+  if (replay_command->parsed()) return run_replay(replay_files, replay_options, replay_rival);
   if (add_command->parsed()) {
     if (corpus_options.corpus.empty()) corpus_options.corpus = find_corpus();
     print(add_to_corpus(corpus_options) + "\n");

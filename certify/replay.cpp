@@ -92,10 +92,12 @@ bool fits_a_map(const Scene& scene) {
 
 }  // namespace
 
-Replay replay(const Scene& scene, const std::string& name, const ReplayOptions& options) {
-  const properties::Renderer other =
-      options.second_oracle ? properties::clipped_oracle_renderer() : properties::engine_renderer();
-  const char* other_name = options.second_oracle ? "second oracle" : "engine";
+Replay replay(const Scene& original, const std::string& name, const ReplayOptions& options) {
+  const properties::Renderer other = options.rival           ? adapters::rival_renderer(*options.rival)
+                                     : options.second_oracle ? properties::clipped_oracle_renderer()
+                                                             : properties::engine_renderer();
+  const char* other_name = options.rival ? "rival" : options.second_oracle ? "second oracle" : "engine";
+  const Scene scene = options.rival ? adapters::scene_under_model(original, options.rival->info()) : original;
   Replay result;
   std::string& text = result.text;
   text = fmt::format("{}: {} x {}", name, scene.width, scene.height);
@@ -110,7 +112,17 @@ Replay replay(const Scene& scene, const std::string& name, const ReplayOptions& 
   const corpus::Outputs outputs = properties::outputs_of(scene);
   corpus::Frame expected(scene, outputs), actual(scene, outputs);
   const Status expected_status = properties::oracle_renderer()(expected.target(), expected.draws());
-  const Status actual_status = other(actual.target(), actual.draws());
+  Status actual_status = Status::ok;
+  try {
+    actual_status = other(actual.target(), actual.draws());
+  } catch (const adapters::RivalSkips& lacking) {
+    text += fmt::format("  not drawn: the rival lacks {}\n", lacking.what());
+    return result;
+  } catch (const adapters::RivalFailure& failure) {
+    text += fmt::format("  {}\n", failure.what());
+    result.equal = false;
+    return result;
+  }
   if (expected_status != Status::ok) {
     text += fmt::format("  this is no frame that can be drawn: {}\n", status_text(expected_status));
     result.equal = false;
@@ -122,7 +134,9 @@ Replay replay(const Scene& scene, const std::string& name, const ReplayOptions& 
     return result;
   }
 
-  const properties::Comparison comparison = judge(scene, properties::oracle_renderer(), other, 16);
+  const properties::Comparison comparison = options.rival
+                                                ? properties::compare(scene, expected.image(), actual.image(), 16)
+                                                : judge(scene, properties::oracle_renderer(), other, 16);
   result.equal = comparison.differences == 0;
   for (const properties::Difference& difference : comparison.first) {
     if (difference.output == "vertex") text += "  " + describe_finding(difference, scene.samples) + "\n";

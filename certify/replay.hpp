@@ -6,13 +6,15 @@
 
 #include <string>
 
+#include "certify/adapters/rival.hpp"
 #include "corpus/scene.hpp"
 
 namespace surefill::certify {
 
 struct ReplayOptions {
-  bool all = false;            // every sample, not those alone that differ
-  bool second_oracle = false;  // the second oracle in the engine's place
+  adapters::Rival* rival = nullptr;  // in the engine's place, with the oracle under its model
+  bool all = false;                  // every sample, not those alone that differ
+  bool second_oracle = false;        // the second oracle in the engine's place
 };
 
 // What a replay says, and whether the two are equal. Throws SceneError for points and lines.

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <nlohmann/json.hpp>
 
 #include "certify/build_info.hpp"
 #include "surefill/surefill.hpp"
@@ -13,15 +12,6 @@
 namespace surefill::certify {
 
 namespace {
-
-std::string grouped(std::uint64_t number) {
-  std::string digits = std::to_string(number);
-  for (std::size_t at = digits.size(); at > 3;) {
-    at -= 3;
-    digits.insert(at, 1, ',');
-  }
-  return digits;
-}
 
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
@@ -35,25 +25,27 @@ std::string cpu_model() {
 
 constexpr const char* kMeans =
     "every value compared equals the exact one, bit for bit: no tolerance, no sample left out";
+constexpr const char* kRivalMeans =
+    "invariants: what every rasterizer owes, on all cases looked at; exact model: coverage equal to the oracle's under "
+    "the "
+    "model, with no tolerance, and values within what the profile grants (profile exact: equal bit for bit)";
+constexpr const char* kRivalLimits[] = {
+    "sampled checks speak for the cases drawn, not for all; exhaustive ones for all of the N named",
+    "cases that need what the rasterizer does not claim to have are skipped",
+    "vertices behind the eye or beyond the guard band are judged 1/16 pixel and more from edges, unless the profile is "
+    "exact",
+};
 constexpr const char* kLimits[] = {
     "sampled checks speak for the cases drawn, not for all; exhaustive ones for all of the N named",
     "the oracle, a second oracle by another route and the engine share the reading of docs/semantics.md",
     "what was checked is this build on this machine; speed was not",
 };
 
-const char* name_of(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::certified:
-      return "certified";
-    case Verdict::not_certified:
-      return "not certified";
-    case Verdict::incomplete:
-      return "incomplete";
-  }
-  return "unknown";
-}
-
 std::string how_many(const CheckResult& result, std::uint64_t seed) {
+  if (result.due < result.cases) {
+    return fmt::format("{} of {} {} ({}), seed {}", grouped(result.due), grouped(result.cases), result.unit,
+                       result.exhaustive ? "all there are" : "sampled", seed);
+  }
   if (result.exhaustive) return fmt::format("exhaustive over {} {}", grouped(result.cases), result.unit);
   return fmt::format("sampled {} {}, seed {}", grouped(result.cases), result.unit, seed);
 }
@@ -69,6 +61,58 @@ std::string engine_path() {
 }
 
 }  // namespace
+
+std::string grouped(std::uint64_t number) {
+  std::string digits = std::to_string(number);
+  for (std::size_t at = digits.size(); at > 3;) {
+    at -= 3;
+    digits.insert(at, 1, ',');
+  }
+  return digits;
+}
+
+const char* verdict_name(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::certified:
+      return "certified";
+    case Verdict::not_certified:
+      return "not certified";
+    case Verdict::incomplete:
+      return "incomplete";
+  }
+  return "unknown";
+}
+
+std::string meaning(const Facts& facts) {
+  return facts.of_rival() ? kRivalMeans : kMeans;
+}
+
+std::vector<std::string> limits(const Facts& facts) {
+  if (facts.of_rival()) return {std::begin(kRivalLimits), std::end(kRivalLimits)};
+  return {std::begin(kLimits), std::end(kLimits)};
+}
+
+std::string deviations_text(const Deviations& deviations) {
+  std::string text;
+  const auto add = [&text](const char* name, const Deviation& deviation) {
+    if (deviation.ulp == 0) return;
+    text += fmt::format("{}{} {:.6g} ULP, {:.3g} of what is granted", text.empty() ? "" : "; ", name, deviation.ulp,
+                        deviation.granted);
+  };
+  add("depth", deviations.depth);
+  add("barycentrics", deviations.barycentrics);
+  add("attributes", deviations.attributes);
+  return text;
+}
+
+std::vector<std::pair<std::string, std::vector<CheckResult>>> groups_of(std::span<const CheckResult> results) {
+  std::vector<std::pair<std::string, std::vector<CheckResult>>> groups;
+  for (const CheckResult& result : results) {
+    if (groups.empty() || groups.back().first != result.group) groups.push_back({result.group, {}});
+    groups.back().second.push_back(result);
+  }
+  return groups;
+}
 
 Facts build_facts() {
   Facts facts;
@@ -90,12 +134,20 @@ std::string check_line(const CheckResult& result, std::uint64_t seed) {
   std::string line =
       fmt::format("{:<4}  {}: {} [{}]\n      {}", mark, result.name, result.claim, result.rule, how_many(result, seed));
   if (!result.complete()) line += fmt::format(" ({} done)", grouped(result.done));
-  if (result.skipped > 0) line += fmt::format(" ({} skipped: modes the engine lacks)", grouped(result.skipped));
+  if (result.skipped > 0) {
+    line += fmt::format(" ({} skipped: {})", grouped(result.skipped),
+                        result.group.empty() ? "modes the engine lacks" : "not owed, or features it lacks");
+  }
   line += fmt::format("; {} samples, {} differences, {:.1f} s\n", grouped(result.samples), grouped(result.differences),
                       result.seconds);
+  const std::string deviations = deviations_text(result.deviations);
+  if (!deviations.empty()) line += fmt::format("      largest errors: {}\n", deviations);
   if (result.failed == 0) return line;
   line += fmt::format("      {} of {} {} differ. First, case {}: {}\n", grouped(result.failed), grouped(result.cases),
                       result.unit, result.case_number, result.finding);
+  if (!result.shown.empty() && result.shown != result.finding) {
+    line += fmt::format("      reduced: {}\n", result.shown);
+  }
   if (!result.replay.empty()) line += fmt::format("      {}\n", result.replay);
   return line;
 }
@@ -139,62 +191,38 @@ std::string verdict_block(std::span<const CheckResult> results, const Facts& fac
   if (facts.interrupted && verdict == Verdict::not_certified) {
     block += fmt::format("  interrupted: {} of {} checks are complete\n", complete, results.size());
   }
-  if (skipped > 0) {
+  if (facts.of_rival()) {
+    for (const auto& [group, part] : groups_of(results)) {
+      const std::string of = group == "exact model" ? fmt::format(" ({})", facts.model) : "";
+      const std::size_t bad = static_cast<std::size_t>(
+          std::count_if(part.begin(), part.end(), [](const CheckResult& r) { return r.failed > 0; }));
+      const Verdict here = verdict_of(part, facts);
+      block += fmt::format("  verdict   {}{}: {}\n", group, of,
+                           here == Verdict::certified    ? "hold on all cases"
+                           : here == Verdict::incomplete ? "incomplete"
+                           : bad == 0                    ? "nothing could be checked"
+                                      : fmt::format("violated in {} of {} checks", bad, part.size()));
+    }
+    block += fmt::format("  rival     {} {}\n", facts.rival, facts.rival_version);
     block +=
-        fmt::format("  {} cases were skipped: they need modes that this engine does not have yet\n", grouped(skipped));
+        fmt::format("  model     declared: {}; found by probing: {}\n", facts.declared_model, facts.inferred_model);
+    for (const std::string& problem : facts.problems) block += fmt::format("            {}\n", problem);
   }
-  block += fmt::format("  means     {}\n", kMeans);
-  for (const char* limit : kLimits) block += fmt::format("  but       {}\n", limit);
+  if (skipped > 0) {
+    block += fmt::format("  {} cases were skipped: {}\n", grouped(skipped),
+                         facts.of_rival() ? "they are not owed under its model, or need features that it does not claim"
+                                          : "they need modes that this engine does not have yet");
+  }
+  block += fmt::format("  means     {}\n", meaning(facts));
+  for (const std::string& limit : limits(facts)) block += fmt::format("  but       {}\n", limit);
   block += fmt::format("  version   {}, commit {}\n", facts.version, facts.commit);
   block += fmt::format("  compiler  {}\n  flags     {}\n", facts.compiler, facts.flags);
-  block += fmt::format("  machine   {}; engine path: {}\n", facts.cpu, facts.instruction_set);
-  block += fmt::format("  run       level {}, seed {}, {} threads\n", facts.level, facts.seed, facts.jobs);
+  block += fmt::format("  machine   {}", facts.cpu);
+  block += facts.of_rival() ? "\n" : fmt::format("; engine path: {}\n", facts.instruction_set);
+  block += fmt::format("  run       level {}, seed {}, {} threads", facts.level, facts.seed, facts.jobs);
+  if (facts.shard.count > 1) block += fmt::format(", shard {}/{} alone", facts.shard.index, facts.shard.count);
+  block += "\n";
   return block;
-}
-
-std::string certificate_json(std::span<const CheckResult> results, const Facts& facts) {
-  using Json = nlohmann::ordered_json;
-  Json json;
-  json["format"] = "surefill-certificate";
-  json["format_version"] = 1;
-  json["verdict"] = name_of(verdict_of(results, facts));
-  json["interrupted"] = facts.interrupted;
-  json["version"] = facts.version;
-  json["commit"] = facts.commit;
-  json["compiler"] = facts.compiler;
-  json["flags"] = facts.flags;
-  json["cpu"] = facts.cpu;
-  json["instruction_set"] = facts.instruction_set;
-  json["level"] = facts.level;
-  json["seed"] = facts.seed;
-  json["jobs"] = facts.jobs;
-  json["seconds"] = facts.seconds;
-  json["means"] = kMeans;
-  json["limits"] = kLimits;
-  json["checks"] = Json::array();
-  for (const CheckResult& result : results) {
-    Json check;
-    check["name"] = result.name;
-    check["rule"] = result.rule;
-    check["claim"] = result.claim;
-    check["exhaustive"] = result.exhaustive;
-    check["unit"] = result.unit;
-    check["cases"] = result.cases;
-    check["done"] = result.done;
-    check["skipped"] = result.skipped;
-    check["failed"] = result.failed;
-    check["samples"] = result.samples;
-    check["differences"] = result.differences;
-    check["seconds"] = result.seconds;
-    if (result.failed > 0) {
-      check["finding"] = result.finding;
-      check["case"] = result.case_number;
-      if (!result.scene.empty()) check["scene"] = result.scene;
-      if (!result.replay.empty()) check["replay"] = result.replay;
-    }
-    json["checks"].push_back(std::move(check));
-  }
-  return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace surefill::certify

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The certificate, for people and as JSON.
+// The certificate, for people; certificate.hpp has it as JSON.
 #ifndef SUREFILL_CERTIFY_REPORT_HPP
 #define SUREFILL_CERTIFY_REPORT_HPP
 
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "certify/runner.hpp"
 
@@ -19,9 +21,15 @@ struct Facts {
   int jobs = 1;
   double seconds = 0;
   bool interrupted = false;
+  Shard shard;
+  // Of a rival; empty where it is the engine that is certified.
+  std::string rival, rival_version, declared_model, inferred_model, model;
+  std::vector<std::string> problems;  // what no model explains
+
+  bool of_rival() const { return !rival.empty(); }
 };
 
-// Everything but level, seed, jobs, seconds, interrupted.
+// Version, commit, compiler, flags, cpu, instruction_set.
 Facts build_facts();
 
 // "surefill 0.1.0 (commit)".
@@ -37,8 +45,19 @@ Verdict verdict_of(std::span<const CheckResult> results, const Facts& facts);
 // The block after the lines: the verdict, what it means and what not, the facts.
 std::string verdict_block(std::span<const CheckResult> results, const Facts& facts);
 
-// The same as JSON, with a final newline.
-std::string certificate_json(std::span<const CheckResult> results, const Facts& facts);
+// What the certificate claims if there are no differences, and what it does not.
+std::string meaning(const Facts& facts);
+std::vector<std::string> limits(const Facts& facts);
+const char* verdict_name(Verdict verdict);
+
+// "1,234,567".
+std::string grouped(std::uint64_t number);
+
+// "depth 3 ULP, 0.02 of what is granted; ..."; empty where there are none.
+std::string deviations_text(const Deviations& deviations);
+
+// The verdicts of the groups, in order: group and its results. One group without a name where there are none.
+std::vector<std::pair<std::string, std::vector<CheckResult>>> groups_of(std::span<const CheckResult> results);
 
 }  // namespace surefill::certify
 

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A frame of the engine's public types as an adapter sees it (certify/adapter.h), and what such a frame asks of a
+// rival.
+#ifndef SUREFILL_CERTIFY_ADAPTERS_FRAME_HPP
+#define SUREFILL_CERTIFY_ADAPTERS_FRAME_HPP
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "certify/adapter.h"
+#include "surefill/surefill.hpp"
+
+namespace surefill::adapters {
+
+// The model's place in every draw: its fill rule, unless the rival takes rules from the draws, and its grid likewise. A
+// model that is not known leaves the draws as they are.
+std::vector<Draw> under_model(std::span<const Draw> draws, const surefill_adapter_info& info);
+
+// Why this rival is not asked to draw this frame (a feature that it lacks, a limit), as a short sentence; empty if it
+// is. `draws` are under its model.
+std::string what_is_lacking(const Target& target, std::span<const Draw> draws, const surefill_adapter_info& info);
+
+// The frame in the adapter's form. The target's buffers are where the answer goes, directly. Target and draws are
+// valid, and outlive this object.
+class AdapterFrame {
+ public:
+  AdapterFrame(const Target& target, std::span<const Draw> draws,
+               std::uint32_t depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE);
+  AdapterFrame(const AdapterFrame&) = delete;
+  AdapterFrame& operator=(const AdapterFrame&) = delete;
+
+  surefill_adapter_scene& scene() { return scene_; }
+  const surefill_adapter_scene& scene() const { return scene_; }
+  const surefill_adapter_image& image() const { return image_; }
+
+ private:
+  struct Storage {
+    std::vector<float> pixel, clip;
+    std::vector<std::uint32_t> identifiers;
+    std::vector<std::vector<float>> values;
+    std::vector<surefill_adapter_attribute> attributes;
+  };
+  std::vector<Storage> storage_;
+  std::vector<surefill_adapter_draw> draws_;
+  std::vector<float*> attribute_images_;
+  surefill_adapter_scene scene_{};
+  surefill_adapter_image image_{};
+};
+
+}  // namespace surefill::adapters
+
+#endif  // SUREFILL_CERTIFY_ADAPTERS_FRAME_HPP

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The adapter's calls as messages of little-endian 32-bit words: docs/adapters.md. Used by certify, which speaks them
+// to a rival's process, and by the host of plugins, which answers.
+#ifndef SUREFILL_CERTIFY_ADAPTERS_WIRE_HPP
+#define SUREFILL_CERTIFY_ADAPTERS_WIRE_HPP
+
+#include <bit>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "certify/adapter.h"
+
+namespace surefill::adapters {
+
+static_assert(std::endian::native == std::endian::little, "messages are written as they lie in memory");
+
+// A message is its kind, the number of words that follow, and these words.
+using Words = std::vector<std::uint32_t>;
+enum Request : std::uint32_t { kOpen = 1, kDraw = 2, kClose = 3 };
+inline constexpr std::size_t kHeaderWords = 2;
+inline constexpr std::size_t kInfoWords = sizeof(surefill_adapter_info) / 4;
+
+// Text is padded with zeros to a whole word.
+Words text_words(std::string_view text);
+std::string text_of(std::span<const std::uint32_t> words);
+
+// The body of kDraw. The image says which outputs are asked for.
+Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_image& image);
+
+// A decoded kDraw: `scene` points into the words, which stay where they are.
+struct DecodedScene {
+  std::uint32_t outputs = 0;
+  surefill_adapter_scene scene{};
+  std::vector<surefill_adapter_draw> draws;
+  std::vector<std::vector<surefill_adapter_attribute>> attributes;
+  std::vector<std::uint32_t> components;  // of the attributes
+};
+
+// False if the words are no scene.
+bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result);
+
+// One output of the answer to kDraw, in the order in which they come.
+struct OutputBuffer {
+  std::string name;
+  void* words;  // where it goes
+  std::size_t size;
+};
+std::vector<OutputBuffer> output_buffers(const surefill_adapter_scene& scene, const surefill_adapter_image& image);
+
+}  // namespace surefill::adapters
+
+#endif  // SUREFILL_CERTIFY_ADAPTERS_WIRE_HPP

@@ -92,7 +92,7 @@ bool is_png(const std::string& bytes) {
 
 TEST_F(Command, RefusesWrongUsage) {
   write("a.obj", kTriangle);
-  expect_refused("", "render, certify, replay, reduce or explain");
+  expect_refused("", "a subcommand is needed: render, certify");
   expect_refused("--no-such-option", "no-such-option");
   expect_refused("paint a.obj", "paint");
   expect_refused("render a.obj", "--output");

@@ -349,10 +349,10 @@ int run(int argc, char** argv) {
 
   ZooArguments zoo_arguments;
   zoo_arguments.options.jobs = all_cores();
-  zoo_arguments.options.cases = 2000;
+  zoo_arguments.options.cases = 500;
   CLI::App* zoo_command =
       app.add_subcommand("zoo", "Hold wrong rasterizers against every property: all must be killed");
-  zoo_command->add_option("--cases", zoo_arguments.options.cases, "Of each property (2000)")
+  zoo_command->add_option("--cases", zoo_arguments.options.cases, "Of each property (500)")
       ->check(CLI::Range(1, 100000000));
   zoo_command->add_option("--markdown", zoo_arguments.markdown, "Write the table there")
       ->needs(zoo_command->add_option("--picture", zoo_arguments.picture, "Draw the matrix there, as SVG"));

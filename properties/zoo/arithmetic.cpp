@@ -69,7 +69,14 @@ Counts scan(const Target& target, const Draw& draw, bool front, const Covers& co
   return counts;
 }
 
+// Modes and numbers that are no business of these programs are drawn right.
 bool plain_draw(const Draw& draw) {
+  for (const AttributeArray& attribute : draw.attributes)
+    for (const std::uint32_t v : draw.indices) {
+      const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
+      for (std::size_t c = 0; c < attribute.components; ++c)
+        if (!std::isfinite(attribute.values[v * stride + c])) return false;
+    }
   return draw.conservative == Conservative::none && !draw.grid && draw.depth_mode != DepthMode::clip;
 }
 

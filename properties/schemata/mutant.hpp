@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Mutant schemata: every mutant of the engine is compiled in, and one, chosen at run time, is alive. An operator
+// between two operands becomes itself on either side of a marker, so that precedence stays:  a + b  is  a + Marked<7>{}
+// + b.
+#ifndef SUREFILL_PROPERTIES_SCHEMATA_MUTANT_HPP
+#define SUREFILL_PROPERTIES_SCHEMATA_MUTANT_HPP
+
+#include <type_traits>
+
+namespace surefill::mutant {
+
+inline unsigned number = 0;  // of the mutant that is alive; 0: none
+
+template <unsigned N>
+bool alive() {
+  return number == N;
+}
+
+template <unsigned N>
+struct Marked {};
+
+template <class Value, unsigned N>
+struct Left {
+  Value value;
+};
+
+#define SUREFILL_MUTANT_OPERATOR(op, instead)                                                \
+  template <class Value, unsigned N>                                                         \
+  Left<std::decay_t<Value>, N> operator op(const Value& value, Marked<N>) {                  \
+    return {value};                                                                          \
+  }                                                                                          \
+  template <class Value, unsigned N, class Right>                                            \
+  auto operator op(const Left<Value, N>& left, const Right& right) {                         \
+    using Result = decltype(left.value op right);                                            \
+    return alive<N>() ? static_cast<Result>(left.value instead right) : left.value op right; \
+  }
+
+SUREFILL_MUTANT_OPERATOR(+, -)
+SUREFILL_MUTANT_OPERATOR(-, +)
+SUREFILL_MUTANT_OPERATOR(*, +)
+SUREFILL_MUTANT_OPERATOR(<, <=)
+SUREFILL_MUTANT_OPERATOR(<=, <)
+SUREFILL_MUTANT_OPERATOR(>, >=)
+SUREFILL_MUTANT_OPERATOR(>=, >)
+SUREFILL_MUTANT_OPERATOR(==, !=)
+SUREFILL_MUTANT_OPERATOR(!=, ==)
+
+#undef SUREFILL_MUTANT_OPERATOR
+
+}  // namespace surefill::mutant
+
+using surefill::mutant::Marked;
+
+#endif  // SUREFILL_PROPERTIES_SCHEMATA_MUTANT_HPP

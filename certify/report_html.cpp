@@ -343,8 +343,9 @@ std::string html_report(const Certificate& certificate) {
         "<span style=\"border:2px solid #d01f1f;width:9px;height:9px\"></span>differs</p>\n",
         causes.size(), causes.size() == 1 ? "" : "s");
     std::vector<std::pair<std::string, std::vector<const CheckResult*>>> sorted(causes.begin(), causes.end());
-    std::stable_sort(sorted.begin(), sorted.end(),
-                     [](const auto& a, const auto& b) { return a.second.size() > b.second.size(); });
+    std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {
+      return a.second.size() != b.second.size() ? a.second.size() > b.second.size() : a.first < b.first;
+    });
     for (const auto& [cause, findings] : sorted) html += finding_card(findings, cause);
   }
 

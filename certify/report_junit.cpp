@@ -38,9 +38,8 @@ std::string escaped(const std::string& text) {
 std::string junit_report(const Certificate& certificate) {
   std::string xml = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites name=\"surefill certify\">\n";
   for (const auto& [group, results] : groups_of(certificate.results)) {
-    const auto count = [&results = results](auto condition) {
-      return std::count_if(results.begin(), results.end(), condition);
-    };
+    const std::vector<CheckResult>& checks = results;
+    const auto count = [&checks](auto condition) { return std::count_if(checks.begin(), checks.end(), condition); };
     double seconds = 0;
     for (const CheckResult& result : results) seconds += result.seconds;
     const auto failed = [](const CheckResult& r) { return r.failed > 0; };

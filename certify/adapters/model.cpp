@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <tuple>
 
 #include "corpus/names.hpp"
 #include "corpus/scene.hpp"
@@ -223,8 +224,8 @@ bool explains(const std::vector<Probe>& probes, double towards, const Snap& snap
 
 // Of grids, the one that explains most of some slanted edges; of equals, one without offset, then of more bits.
 Grid best_of(Rival& rival, std::vector<Grid> grids, FillRule rule) {
-  std::stable_sort(grids.begin(), grids.end(),
-                   [](const Grid& a, const Grid& b) { return a.offset_x + a.offset_y < b.offset_x + b.offset_y; });
+  const auto rank = [](const Grid& g) { return std::tuple(g.offset_x + g.offset_y, -g.bits, g.rounding, g.offset_x); };
+  std::sort(grids.begin(), grids.end(), [&rank](const Grid& a, const Grid& b) { return rank(a) < rank(b); });
   std::vector<std::size_t> mismatches(grids.size(), 0);
   properties::Random random(0x5EED);
   const auto coordinate = [&random] { return static_cast<float>(8 * random.unit()); };

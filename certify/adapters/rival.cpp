@@ -169,6 +169,14 @@ void Rival::draw_once(Target target, std::span<const Draw> draws) {
 }
 
 void Rival::add_up_counts(const Target& target, std::span<const Draw> draws) {
+  for (const Draw& draw : draws) {
+    for (const AttributeArray& array : draw.attributes) {
+      const bool finite =
+          std::all_of(array.values.begin(), array.values.end(), [](float v) { return std::isfinite(v); });
+      // Drawn alone they have no attributes, and B1 would not drop them.
+      if (!finite) throw RivalSkips("attributes with a NaN, without a count");
+    }
+  }
   const std::size_t total = sample_total(target);
   std::fill(target.count.begin(), target.count.end(), 0u);
   const bool by_index = (info_.outputs & SUREFILL_ADAPTER_INDEX) != 0;

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// certify on rasterizers of others: right ones pass, each wrong one is found, and no run is ended by what a rival does.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "corpus/scene.hpp"
+
+namespace surefill {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Adapter : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    std::string name = (fs::temp_directory_path() / "surefill-XXXXXX").string();
+    ASSERT_NE(::mkdtemp(name.data()), nullptr);
+    folder_ = name;
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  static std::string read(const fs::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file, std::ios::binary).rdbuf();
+    return std::move(text).str();
+  }
+
+  // The exit status; what is printed is in `out`.
+  int surefill(const std::string& arguments) {
+    const std::string line =
+        "cd '" + folder_.string() + "' && " SUREFILL_COMMAND " " + arguments + " >out.txt 2>err.txt";
+    const int status = std::system(line.c_str());
+    out = read(folder_ / "out.txt") + read(folder_ / "err.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  }
+  int certify(const std::string& arguments) { return surefill("certify --jobs 1 " + arguments); }
+  int certify_engine(const std::string& fault) {
+    return certify("--time-limit 0.5 --only 'alone,model' --plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments '" +
+                   fault + "'");
+  }
+  bool says(const std::string& text) const { return out.find(text) != std::string::npos; }
+
+  // The Python rival with one text in it replaced.
+  std::string python_with(const std::string& text, const std::string& fault) {
+    std::string program = read(SUREFILL_PYTHON_RIVAL);
+    const std::size_t at = program.find(text);
+    EXPECT_NE(at, std::string::npos) << text;
+    if (at != std::string::npos) program.replace(at, text.size(), fault);
+    std::ofstream(folder_ / "rival.py") << program;
+    return "--command 'python3 rival.py'";
+  }
+
+  // The most triangles of any scene that was found by a check of this name.
+  std::size_t triangles_of(const std::string& name) const {
+    std::size_t triangles = 0;
+    const corpus::Scene scene = corpus::read_scene_file((folder_ / (name + "-1.scene")).string());
+    for (const corpus::SceneDraw& draw : scene.draws) triangles += draw.triangles.size();
+    return triangles;
+  }
+
+  fs::path folder_;
+  std::string out;
+};
+
+TEST_F(Adapter, TheEngineBehindTheAdapterIsExact) {
+  EXPECT_EQ(certify_engine(""), 0) << out;
+  EXPECT_TRUE(says("probing finds exact")) << out;
+  EXPECT_EQ(certify_engine("chatter"), 0) << out;
+  EXPECT_EQ(certify_engine("no-count"), 0) << out;
+  EXPECT_EQ(certify("--only 'values,scissor,partition-fan,samples-shifted' --plugin " SUREFILL_ENGINE_PLUGIN), 0)
+      << out;
+}
+
+TEST_F(Adapter, WhateverAPluginDoesIsAFinding) {
+  const std::pair<const char*, const char*> faults[] = {
+      {"crash", "ended by signal 11"},
+      {"abort", "ended by signal 6"},
+      {"hang", "gave no answer within 0.5 s"},
+      {"exit", "ended with status 3"},
+      {"fail", "out of coffee"},
+      {"overrun", "past the end of the buffer \"count\""},
+      {"underrun", "before the beginning of the buffer \"count\""},
+      {"scribble", "wrote to the scene"},
+      {"nan", "nan"},
+      {"unwritten", "depth"},
+      {"forgetful", "drawn twice"},
+      {"wrong-model", "it declares grid of 8 bits"},
+      {"no-open", "no device"},
+      {"exit-on-open", "ended with status 5"},
+      {"no-name", "it has no name"},
+      {"bad-outputs", "an output that there is not"},
+  };
+  for (const auto& [fault, finding] : faults) {
+    EXPECT_EQ(certify_engine(fault), 1) << fault << "\n" << out;
+    EXPECT_TRUE(says(finding)) << fault << "\n" << out;
+    EXPECT_TRUE(says("NOT CERTIFIED")) << fault << "\n" << out;
+  }
+}
+
+TEST_F(Adapter, AModelIsFound) {
+  EXPECT_EQ(certify("--plugin " SUREFILL_FIXED_POINT), 0) << out;
+  EXPECT_TRUE(says("probing finds grid of 8 bits, nearest-up, offset (0, 0), fill rule top-left")) << out;
+}
+
+TEST_F(Adapter, FloatEdgesCrackWithoutTheCorpus) {
+  EXPECT_EQ(certify("--only 'partition-delaunay' --plugin " SUREFILL_FLOAT_EDGES), 1) << out;
+  EXPECT_TRUE(says("count of a tiling")) << out;
+  EXPECT_LE(triangles_of("partition-delaunay"), 2u);
+}
+
+TEST_F(Adapter, PlainPythonAndItsThreeFaults) {
+  EXPECT_EQ(certify("--command 'python3 " SUREFILL_PYTHON_RIVAL "'"), 0) << out;
+  EXPECT_EQ(certify("--only partition-quads " + python_with("e == 0 and (", "e == 0 or (")), 1) << out;
+  EXPECT_LE(triangles_of("partition-quads"), 2u);
+  EXPECT_EQ(certify("--only values " + python_with("[1, 1, 1])", "[v[3] for v in vertices])")), 1) << out;
+  EXPECT_LE(triangles_of("values"), 2u);
+  EXPECT_EQ(certify("--only clear-samples " + python_with("in clip(vertices)]", "in vertices if w]")), 1) << out;
+  EXPECT_LE(triangles_of("clear-samples"), 2u);
+}
+
+TEST_F(Adapter, ShardsMergeAndOthersDoNot) {
+  const std::string rival = "--only 'partition-*,alone' --plugin " SUREFILL_FLOAT_EDGES;
+  EXPECT_EQ(certify("--shard 1/2 --json a.json " + rival), 1) << out;
+  EXPECT_EQ(certify("--shard 2/2 --json b.json " + rival), 1) << out;
+  EXPECT_EQ(certify("--shard 2/2 --seed 2 --json c.json " + rival), 1) << out;
+  EXPECT_EQ(surefill("merge a.json b.json --html m.html --junit m.xml"), 1) << out;
+  EXPECT_TRUE(says("sampled 300 scenes")) << out;
+  EXPECT_NE(read(folder_ / "m.html").find("<svg"), std::string::npos);
+  EXPECT_NE(read(folder_ / "m.xml").find("<failure"), std::string::npos);
+  EXPECT_EQ(surefill("merge a.json"), 2);
+  EXPECT_TRUE(says("shard 2 of 2 is missing")) << out;
+  EXPECT_EQ(surefill("merge a.json a.json"), 2);
+  EXPECT_TRUE(says("twice")) << out;
+  EXPECT_EQ(surefill("merge a.json c.json"), 2);
+  EXPECT_TRUE(says("another seed")) << out;
+}
+
+TEST_F(Adapter, AnInterruptedRunGoesOn) {
+  const std::string run = "certify --jobs 1 --level standard --only random-ordinary --resume state.json --json ";
+  const std::string interrupted =
+      "cd '" + folder_.string() + "' && timeout -s INT 1 " SUREFILL_COMMAND " " + run + "half.json >half.txt 2>&1";
+  const int status = std::system(interrupted.c_str());
+  ASSERT_TRUE(WIFEXITED(status));
+  ASSERT_TRUE(fs::exists(folder_ / "state.json"));
+  EXPECT_EQ(surefill(run + "whole.json"), 0) << out;
+  EXPECT_EQ(surefill("certify --jobs 1 --level standard --only random-ordinary --json once.json"), 0) << out;
+  const auto sums = [this](const char* file) {
+    std::istringstream lines(read(folder_ / file));
+    std::string kept;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find("\"samples\"") != std::string::npos || line.find("\"done\"") != std::string::npos) kept += line;
+    }
+    return kept;
+  };
+  EXPECT_EQ(sums("whole.json"), sums("once.json"));
+  EXPECT_EQ(surefill("certify --seed 5 --level standard --only random-ordinary --resume state.json"), 2) << out;
+}
+
+}  // namespace
+}  // namespace surefill

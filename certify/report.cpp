@@ -32,8 +32,7 @@ constexpr const char* kRivalMeans =
 constexpr const char* kRivalLimits[] = {
     "sampled checks speak for the cases drawn, not for all; exhaustive ones for all of the N named",
     "cases that need what the rasterizer does not claim to have are skipped",
-    "unless the profile is exact: behind the eye and beyond the guard band, samples 1/16 pixel and more from edges "
-    "count",
+    "unless the profile is exact: behind the eye and beyond the guard band, 1/16 pixel around edges is left open",
     "unless the profile is exact: numbers beyond 2^32 or below 2^-32 are not judged",
 };
 constexpr const char* kLimits[] = {

@@ -17,7 +17,7 @@ namespace surefill::certify {
 namespace {
 
 constexpr int kViewPixels = 14;     // of a zoomed view, each way, at most
-constexpr double kPanelSize = 380;  // of a picture on the page, in CSS pixels
+constexpr double kPanelSize = 420;  // of a picture on the page, in CSS pixels
 
 constexpr const char* kStyle = R"(
 body{font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:#1d2129;background:#f6f7f9;margin:0}
@@ -184,7 +184,7 @@ const char* colour_of(std::uint32_t count) {
 std::string picture(const Evidence& evidence, const std::vector<std::uint32_t>& counts, const View& view,
                     const std::vector<std::vector<Point>>& triangles, const std::string& caption, bool marks) {
   const int width = view.x1 - view.x0, height = view.y1 - view.y0;
-  const double scale = kPanelSize / std::max({width, height, 3});
+  const double scale = kPanelSize / std::max({width, height, 2});
   std::string svg =
       fmt::format("<figure><figcaption>{}</figcaption><svg width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {} {}\">",
                   escaped(caption), width * scale, height * scale, view.x0, view.y0, width, height);

@@ -345,7 +345,8 @@ class Rasterizer {
     auto low = RoundDepths(z - z_error_, z_lane_ + i);
     float* const depth = job_.buffers.depth + offset + i;
     const auto before = hn::Load(df, depth);
-    if (!kCount && !with_identifiers_) {
+    if (!kCount && !with_identifiers_ &&
+        !(clip_ && draw_.depth_mode == DepthMode::clamp)) {  // clamping may bring it nearer
       lanes = hn::And(lanes, hn::Lt(low, before));
       if (hn::AllFalse(df, lanes)) return;
     }

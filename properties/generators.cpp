@@ -25,7 +25,10 @@ std::uint32_t Random::below(std::uint32_t n) {
 }
 
 int Random::between(int first, int last) {
-  return static_cast<int>(first + static_cast<std::int64_t>(below(static_cast<std::uint32_t>(last - first) + 1u)));
+  const std::int64_t range = std::int64_t{last} - first + 1;  // below 2^32, or the whole of int
+  const std::uint32_t step =
+      range > 0xFFFFFFFF ? static_cast<std::uint32_t>(bits()) : below(static_cast<std::uint32_t>(range));
+  return static_cast<int>(first + std::int64_t{step});
 }
 
 double Random::unit() {

@@ -18,7 +18,8 @@ constexpr SampleLocation kLocations8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 
 constexpr SampleLocation kLocations16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
                                            {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
 
-Status draw(const Target& target, std::span<const Draw> draws, const Options& options, Statistics& statistics) {
+Status draw(const Target& target, std::span<const Draw> draws, [[maybe_unused]] const Options& options,
+            Statistics& statistics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
   if (options.path == Path::automatic && fast::supports(target, draws)) {
     return fast::render(target, draws, options.threads, statistics);

@@ -53,6 +53,17 @@ std::vector<std::string> words_of(const std::string& text) {
   return words;
 }
 
+// The plugin that is built, or installed, beside the command.
+std::filesystem::path driver_plugin(const std::string& adapter, const std::filesystem::path& self) {
+  const std::string name = "libsurefill_" + adapter + ".so";
+  std::error_code error;
+  const std::filesystem::path folder = self.parent_path();
+  for (const auto& found : {folder / name, folder.parent_path() / "lib" / "surefill" / name}) {
+    if (std::filesystem::is_regular_file(found, error)) return found;
+  }
+  throw UsageError("--adapter " + adapter + ": " + name + " was not built: its development packages are missing");
+}
+
 Shard shard_of(const std::string& text) {
   Shard shard;
   if (text.empty()) return shard;
@@ -135,6 +146,7 @@ void print(const std::string& text) {
 std::string RivalChoice::as_options() const {
   std::string text;
   if (!plugin.empty()) text = "--plugin " + shell_word(plugin);
+  if (!adapter.empty()) text = "--adapter " + adapter;
   if (!command.empty()) text = "--command " + shell_word(command);
   if (!arguments.empty()) text += " --plugin-arguments " + shell_word(arguments);
   return text;
@@ -142,7 +154,11 @@ std::string RivalChoice::as_options() const {
 
 void add_rival_options(CLI::App& app, RivalChoice& choice) {
   CLI::Option* plugin = app.add_option("--plugin", choice.plugin, "Another rasterizer: a shared library (adapter.h)");
-  app.add_option("--command", choice.command, "Another rasterizer: a program over stdin and stdout")->excludes(plugin);
+  CLI::Option* adapter = app.add_option("--adapter", choice.adapter, "A driver of this machine: opengl or vulkan");
+  adapter->check(CLI::IsMember({"opengl", "vulkan"}))->excludes(plugin);
+  app.add_option("--command", choice.command, "Another rasterizer: a program over stdin and stdout")
+      ->excludes(plugin)
+      ->excludes(adapter);
   app.add_option("--plugin-arguments", choice.arguments, "What the rasterizer is opened with");
   app.add_option("--time-limit", choice.time_limit, "Seconds it may take for one scene (5)")
       ->check(CLI::Range(0.01, 3600.0));
@@ -152,16 +168,22 @@ std::unique_ptr<adapters::Rival> start_rival(const RivalChoice& choice) {
   adapters::RivalOptions options;
   options.arguments = choice.arguments;
   options.time_limit = std::chrono::milliseconds(static_cast<std::int64_t>(choice.time_limit * 1000));
-  if (!choice.plugin.empty()) {
+  if (choice.command.empty()) {
     std::error_code error;
-    if (!std::filesystem::is_regular_file(choice.plugin, error)) throw UsageError(choice.plugin + ": no such file");
-    const std::string self = std::filesystem::read_symlink("/proc/self/exe", error).string();
+    const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+    const std::filesystem::path plugin =
+        choice.adapter.empty() ? std::filesystem::absolute(choice.plugin) : driver_plugin(choice.adapter, self);
+    if (!std::filesystem::is_regular_file(plugin, error)) throw UsageError(plugin.string() + ": no such file");
     // A path, so that the loader does not look elsewhere.
-    options.command = {self, "plugin-host", std::filesystem::absolute(choice.plugin).string(), choice.arguments};
+    options.command = {self.string(), "plugin-host", plugin.string(), choice.arguments};
   } else {
     options.command = words_of(choice.command);
   }
-  return std::make_unique<adapters::Rival>(std::move(options));
+  try {
+    return std::make_unique<adapters::Rival>(std::move(options));
+  } catch (const adapters::RivalSkips& reason) {
+    throw UsageError(std::string("nothing to judge: ") + reason.what());
+  }
 }
 
 void add_certify_options(CLI::App& app, CertifyOptions& options) {

@@ -26,10 +26,10 @@ class UsageError : public std::runtime_error {
 
 // Somebody else's rasterizer, as options.
 struct RivalChoice {
-  std::string plugin, arguments, command;
+  std::string plugin, adapter, arguments, command;
   double time_limit = 5;  // seconds for a scene
 
-  bool chosen() const { return !plugin.empty() || !command.empty(); }
+  bool chosen() const { return !plugin.empty() || !adapter.empty() || !command.empty(); }
   std::string as_options() const;  // as a shell takes them
 };
 void add_rival_options(CLI::App& app, RivalChoice& choice);

@@ -24,6 +24,12 @@ struct Point {
   float x, y;
 };
 
+// To a multiple of 2^-18, so that both forms of a vertex on a target of up to 32 pixels are exact (a power of two wide,
+// clip space is X/16 - 1 or finer) and no probe has another rounding than the rival's.
+float probe_coordinate(float value) {
+  return static_cast<float>(std::ldexp(std::nearbyint(std::ldexp(static_cast<double>(value), 18)), -18));
+}
+
 // Triangles in front of the eye, W = 1, all at one depth.
 Scene flat_scene(int width, int height, const std::vector<std::array<Point, 3>>& triangles, float z = 0.5f) {
   Scene scene;
@@ -32,7 +38,7 @@ Scene flat_scene(int width, int height, const std::vector<std::array<Point, 3>>&
   corpus::SceneDraw& draw = scene.draws.emplace_back();
   for (const auto& triangle : triangles) {
     const auto first = static_cast<std::uint32_t>(draw.vertices.size());
-    for (const Point& p : triangle) draw.vertices.push_back({p.x, p.y, z, 1, {}});
+    for (const Point& p : triangle) draw.vertices.push_back({probe_coordinate(p.x), probe_coordinate(p.y), z, 1, {}});
     draw.triangles.push_back({{first, first + 1, first + 2}, std::nullopt});
   }
   return scene;

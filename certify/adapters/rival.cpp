@@ -84,6 +84,7 @@ Rival::Rival(RivalOptions options) : options_(std::move(options)) {
   // Starting an interpreter or a device takes longer than a scene.
   const Answer answer = process->ask(kOpen, body, kInfoWords, options_.time_limit * 4);
   if (!answer.failure.empty()) throw RivalFailure("on being opened, " + answer.failure);
+  if (answer.status == SUREFILL_ADAPTER_UNSUPPORTED) throw RivalSkips(cause_of(answer));
   if (answer.status != SUREFILL_ADAPTER_OK) throw RivalFailure("the rasterizer cannot be opened: " + cause_of(answer));
   if (answer.words.size() != kInfoWords) {
     throw RivalFailure(

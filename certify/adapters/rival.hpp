@@ -46,7 +46,8 @@ inline constexpr std::uint32_t kAllOutputs = SUREFILL_ADAPTER_COUNT | SUREFILL_A
 // Thread-safe, but for `set_model`: each thread that draws has a process of its own for as long as it does.
 class Rival {
  public:
-  // Starts a process and asks who it is. Throws RivalFailure, and std::runtime_error where nothing can be started.
+  // Starts a process and asks who it is. Throws RivalFailure, RivalSkips where it says that there is nothing to judge
+  // (a driver that is not there), and std::runtime_error where nothing can be started.
   explicit Rival(RivalOptions options);
   Rival(const Rival&) = delete;
   Rival& operator=(const Rival&) = delete;

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/drivers/driver.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <exception>
+#include <numeric>
+
+namespace surefill::drivers {
+
+Arguments parse_arguments(const std::string& text) {
+  Arguments arguments;
+  std::string word;
+  bool quoted = false;
+  const auto end_word = [&] {
+    if (word.empty()) return;
+    const std::size_t equals = word.find('=');
+    arguments[word.substr(0, equals)] = equals == std::string::npos ? "" : word.substr(equals + 1);
+    word.clear();
+  };
+  for (const char c : text) {
+    if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ' ' && !quoted) {
+      end_word();
+    } else {
+      word += c;
+    }
+  }
+  end_word();
+  return arguments;
+}
+
+void check_keys(const Arguments& arguments, const std::vector<std::string>& known) {
+  for (const auto& [key, value] : arguments) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) continue;
+    std::string list;
+    for (const std::string& name : known) list += (list.empty() ? "" : ", ") + name;
+    throw NotJudged("unknown argument \"" + key + "\"; there are: " + list);
+  }
+}
+
+std::string argument(const Arguments& arguments, const std::string& key, const std::string& otherwise) {
+  const auto found = arguments.find(key);
+  return found == arguments.end() ? otherwise : found->second;
+}
+
+VertexStream vertex_stream(const surefill_adapter_scene& scene, bool attributes) {
+  VertexStream stream;
+  const std::uint32_t attribute_count = attributes ? scene.attribute_count : 0;
+  stream.stride = 6 + 4 * attribute_count;
+  const auto add = [&stream](float value) { stream.words.push_back(std::bit_cast<std::uint32_t>(value)); };
+  for (std::uint32_t d = scene.draw_count; d-- > 0;) {
+    const surefill_adapter_draw& draw = scene.draws[d];
+    Batch& batch = stream.batches.emplace_back();
+    batch.draw = &draw;
+    batch.first = static_cast<std::uint32_t>(stream.words.size() / stream.stride);
+    batch.count = 3 * draw.triangle_count;
+    for (std::uint32_t k = 0; k < attribute_count; ++k) {
+      batch.interpolation[k] = static_cast<std::int32_t>(draw.attributes[k].interpolation);
+    }
+    std::vector<std::uint32_t> order(draw.triangle_count);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&draw](std::uint32_t a, std::uint32_t b) { return draw.identifiers[a] < draw.identifiers[b]; });
+    std::reverse(order.begin(), order.end());
+    for (const std::uint32_t t : order) {
+      for (std::uint32_t corner = 0; corner < 3; ++corner) {
+        const std::uint32_t v = draw.indices[3 * t + corner];
+        for (std::uint32_t c = 0; c < 4; ++c) add(draw.clip[4 * v + c]);
+        stream.words.push_back(draw.identifiers[t]);
+        stream.words.push_back(corner);
+        for (std::uint32_t k = 0; k < attribute_count; ++k) {
+          const surefill_adapter_attribute& attribute = draw.attributes[k];
+          for (std::uint32_t c = 0; c < 4; ++c) {
+            add(c < attribute.components ? attribute.values[attribute.components * v + c] : 0.0f);
+          }
+        }
+      }
+    }
+  }
+  return stream;
+}
+
+bool depths_within_buffer(const surefill_adapter_scene& scene) {
+  for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
+    const surefill_adapter_draw& draw = scene.draws[d];
+    if (draw.depth_mode != SUREFILL_ADAPTER_ANY_DEPTH) continue;
+    for (std::uint32_t t = 0; t < draw.triangle_count; ++t) {
+      std::array<double, 3> z{}, w{};
+      bool within = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float* v = draw.pixel + 4 * std::size_t{draw.indices[3 * t + i]};
+        z[i] = v[2];
+        w[i] = v[3];
+        within = within && z[i] >= 0 && z[i] <= w[i];
+      }
+      // Or one depth z = c w, 0 <= c <= 1, all over the triangle. Products of two float32 are exact in double.
+      bool constant = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const std::size_t j = (i + 1) % 3;
+        constant =
+            constant && z[i] * w[j] == z[j] * w[i] && w[i] != 0 && z[i] * w[i] >= 0 && z[i] * z[i] <= w[i] * w[i];
+      }
+      if (!within && !constant) return false;
+    }
+  }
+  return true;
+}
+
+bool asks_for_visible(const surefill_adapter_image& image) {
+  return image.index || image.depth || image.barycentrics || image.attributes;
+}
+
+std::array<int, 2> standard_sample(std::uint32_t samples, std::uint32_t n) {
+  static constexpr std::array<std::array<int, 2>, 31> kPlaces{
+      {{8, 8},                                                                      // 1
+       {12, 12}, {4, 4},                                                            // 2
+       {6, 2},   {14, 6}, {2, 10}, {10, 14},                                        // 4
+       {9, 5},   {7, 11}, {13, 9}, {5, 3},   {3, 13}, {1, 7},   {11, 15}, {15, 1},  // 8
+       {9, 9},   {7, 5},  {5, 10}, {12, 7},  {3, 6},  {10, 13}, {13, 11}, {11, 3},  // 16
+       {6, 14},  {8, 1},  {4, 2},  {2, 12},  {0, 8},  {15, 4},  {14, 15}, {1, 0}}};
+  return kPlaces[samples - 1 + n];
+}
+
+void set_text(char (&place)[64], const std::string& text) {
+  const std::size_t length = std::min(text.size(), sizeof place - 1);
+  std::memcpy(place, text.data(), length);
+  place[length] = '\0';
+}
+
+namespace {
+
+struct Instance {
+  std::unique_ptr<Driver> driver;
+  std::string error;
+};
+
+std::string open_error;
+
+int open(const char* arguments, surefill_adapter_info* info, void** instance) {
+  try {
+    auto opened = std::make_unique<Instance>();
+    opened->driver = open_driver(arguments);
+    const std::string problem = self_check(*opened->driver);
+    if (!problem.empty()) throw NotJudged("self-check of the adapter: " + problem);
+    *info = opened->driver->info();
+    *instance = opened.release();
+    return SUREFILL_ADAPTER_OK;
+  } catch (const NotJudged& reason) {
+    open_error = reason.what();
+    return SUREFILL_ADAPTER_UNSUPPORTED;
+  } catch (const std::exception& error) {
+    open_error = error.what();
+    return SUREFILL_ADAPTER_FAILED;
+  }
+}
+
+int draw(void* instance, const surefill_adapter_scene* scene, const surefill_adapter_image* image) {
+  auto& self = *static_cast<Instance*>(instance);
+  try {
+    if (asks_for_visible(*image) && !depths_within_buffer(*scene)) {
+      throw NotJudged("depths outside 0 to 1, which a depth buffer does not hold");
+    }
+    self.driver->draw(*scene, *image);
+    return SUREFILL_ADAPTER_OK;
+  } catch (const NotJudged& reason) {
+    self.error = reason.what();
+    return SUREFILL_ADAPTER_UNSUPPORTED;
+  } catch (const std::exception& error) {
+    self.error = error.what();
+    return SUREFILL_ADAPTER_FAILED;
+  }
+}
+
+void close(void* instance) {
+  delete static_cast<Instance*>(instance);
+}
+
+const char* error_text(void* instance) {
+  return instance ? static_cast<Instance*>(instance)->error.c_str() : open_error.c_str();
+}
+
+constexpr surefill_adapter_api kApi{SUREFILL_ADAPTER_VERSION, open, draw, close, error_text};
+
+}  // namespace
+
+}  // namespace surefill::drivers
+
+extern "C" const surefill_adapter_api* surefill_adapter_entry(std::uint32_t version) {
+  return version == SUREFILL_ADAPTER_VERSION ? &surefill::drivers::kApi : nullptr;
+}

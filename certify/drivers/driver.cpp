@@ -151,6 +151,9 @@ int open(const char* arguments, surefill_adapter_info* info, void** instance) {
   } catch (const NotJudged& reason) {
     open_error = reason.what();
     return SUREFILL_ADAPTER_UNSUPPORTED;
+  } catch (const Misuse& misuse) {
+    open_error = misuse.what();
+    return SUREFILL_ADAPTER_UNSUPPORTED;
   } catch (const std::exception& error) {
     open_error = error.what();
     return SUREFILL_ADAPTER_FAILED;

@@ -29,6 +29,12 @@ class DriverError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// The adapter used the driver's interface wrongly.
+class Misuse : public DriverError {
+ public:
+  using DriverError::DriverError;
+};
+
 // Words of the form key=value or key, separated by blanks. A value in quotation marks may hold blanks.
 using Arguments = std::map<std::string, std::string>;
 Arguments parse_arguments(const std::string& text);

@@ -264,6 +264,7 @@ class OpenGl : public Driver {
     upper_left_ = clip.empty() && (version_ >= 45 || has_extension("GL_ARB_clip_control"));
     std::string renderer = text(GL_RENDERER), version = text(GL_VERSION);
     set_text(info_.name, renderer);
+    info_.model.grid_bits = static_cast<std::uint32_t>(std::min(integer(GL_SUBPIXEL_BITS), 12));
     set_text(info_.version, version + ", GL_SUBPIXEL_BITS " + std::to_string(integer(GL_SUBPIXEL_BITS)));
     info_.outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH |
                     SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;

@@ -6,7 +6,7 @@
 //   validation      the Khronos validation layer watches; what it says is a failure of the scene
 //   claim=non-finite  NaN and infinities are drawn and judged, which no standard promises
 //   fault=STATE     leaves a state wrong on purpose, for tests of the self-check: scissor, viewport, multisample,
-//                   cull, blend, depth-range, front-face, depth-test
+//                   cull, blend, depth-range, front-face, depth-test; and invalid, for tests of the validation
 #include <vulkan/vulkan.h>
 
 #include <algorithm>
@@ -157,7 +157,7 @@ class Vulkan : public Driver {
     if (!said_by_validation.empty()) {
       const std::string said = said_by_validation;
       said_by_validation.clear();
-      throw DriverError("the validation layer says: " + said);
+      throw Misuse("the validation layer says: " + said);
     }
   }
 
@@ -301,7 +301,7 @@ class Vulkan : public Driver {
     const VkPhysicalDeviceLimits& limits = properties_.limits;
     std::string told(driver.driverInfo);
     told = told.substr(0, told.find(" ("));
-    set_text(info_.version, std::string(driver.driverName) + " " + told + ", subPixelPrecisionBits " +
+    set_text(info_.version, "Vulkan, " + std::string(driver.driverName) + " " + told + ", subPixelPrecisionBits " +
                                 std::to_string(limits.subPixelPrecisionBits));
     info_.outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH |
                     SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;
@@ -312,7 +312,7 @@ class Vulkan : public Driver {
     if (non_finite) info_.features |= SUREFILL_ADAPTER_NON_FINITE;
     info_.form = SUREFILL_ADAPTER_FORM_CLIP;
     info_.model.kind = SUREFILL_ADAPTER_MODEL_UNKNOWN;
-    info_.model.grid_bits = limits.subPixelPrecisionBits;
+    info_.model.grid_bits = std::min(limits.subPixelPrecisionBits, 12u);
     info_.model.profile = SUREFILL_ADAPTER_PROFILE_VULKAN;
     info_.model.y = SUREFILL_ADAPTER_Y_DOWN;
     info_.model.depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE;
@@ -606,6 +606,7 @@ class Vulkan : public Driver {
     if (draw.cull == SUREFILL_ADAPTER_CULL_FRONT) cull = VK_CULL_MODE_FRONT_BIT;
     bool clockwise = draw.front_face == SUREFILL_ADAPTER_CLOCKWISE, depth_test = visible;
     if (fault_ == "scissor") scissor.extent.width = scene.width - 1;
+    if (fault_ == "invalid") scissor.offset.x = -1;
     if (fault_ == "viewport") viewport.x = 1;
     if (fault_ == "cull") cull = VK_CULL_MODE_BACK_BIT;
     if (fault_ == "depth-range") viewport.maxDepth = 0.5f;

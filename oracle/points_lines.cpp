@@ -29,7 +29,9 @@ Near real(const mpq_class& value) {
   return {{value, mpq_class(0), mpq_class(0)}};
 }
 Near operator-(const Near& a, const Near& b) {
-  return a + mpq_class(-1) * b;
+  Near difference;
+  for (std::size_t i = 0; i < 3; ++i) difference.r[i] = a.r[i] - b.r[i];
+  return difference;
 }
 bool operator<(const Near& a, const Near& b) {
   for (std::size_t i = 0; i < 3; ++i) {

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <functional>
+#include <iostream>
 #include <mutex>
 #include <sstream>
 #include <string>
@@ -32,8 +33,10 @@ inline std::uint64_t textbook_scenes(std::uint64_t usual) {
 }
 
 // Runs cases 0 .. count - 1 on all cores; a case returns what it found wrong, or nothing. The smallest finding is
-// reported.
-inline void for_each_case(std::uint64_t count, const std::function<std::string(std::uint64_t)>& decide) {
+// reported. A random case draws from a generator that its number seeds.
+enum class Cases { random, corpus };
+inline void for_each_case(std::uint64_t count, const std::function<std::string(std::uint64_t)>& decide,
+                          Cases cases = Cases::random) {
   std::atomic<std::uint64_t> next{0}, findings{0};
   std::mutex mutex;
   std::uint64_t first = count;
@@ -52,6 +55,13 @@ inline void for_each_case(std::uint64_t count, const std::function<std::string(s
   work();
   for (std::thread& thread : threads) thread.join();
   EXPECT_EQ(findings, 0u) << "of " << count << " cases; case " << first << ": " << finding;
+  if (std::getenv("SUREFILL_TEXTBOOK_SCENES") == nullptr) return;
+  if (cases == Cases::random) {
+    std::cout << "sampled, " << count << " cases, seeds 0 .. " << count - 1;
+  } else {
+    std::cout << "exhaustive over " << count << " cases of the corpus";
+  }
+  std::cout << ": " << findings << " differences" << std::endl;
 }
 
 // One triangle and how it is drawn, with the oracle's answers.
@@ -94,20 +104,26 @@ struct TriangleCase {
   }
 };
 
-// Case n: the categories take turns; targets of up to 16 pixels, all fill rules and, for one in four, samples.
-inline TriangleCase random_triangle(std::uint64_t n, bool samples = true) {
+// Case n: the categories take turns; targets of up to `largest` pixels each way, all fill rules and, for one in four,
+// samples.
+inline TriangleCase random_triangle(std::uint64_t n, bool samples = true, int largest = 16) {
   Random random(n * 0x9E3779B97F4A7C15u + 1);
   TriangleCase c;
-  c.width = random.between(1, 16), c.height = random.between(1, 16);
+  c.width = random.between(1, largest), c.height = random.between(1, largest);
   if (samples && random.one_in(4)) c.samples = 1 << random.between(1, 4);
   c.rule = static_cast<FillRule>(random.below(8));
   c.vertices = category_of_case(n).triangle(random, c.width, c.height);
   return c;
 }
 
-// The triangles of the corpus, without what their draws do to them beyond the fill rule; targets of at most so many
-// pixels.
-inline std::vector<TriangleCase> corpus_triangles(std::int64_t largest_target) {
+// The element of a buffer of one sample a pixel.
+inline std::size_t place(const TriangleCase& c, int x, int y) {
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(c.width) + static_cast<std::size_t>(x);
+}
+
+// The triangles of the corpus, without what their draws do to them beyond the fill rule (and their samples, or one);
+// targets of at most so many pixels.
+inline std::vector<TriangleCase> corpus_triangles(std::int64_t largest_target, bool samples = true) {
   std::vector<TriangleCase> cases;
   for (const std::string& path : corpus::list_corpus(SUREFILL_CORPUS "/cases")) {
     const corpus::Scene scene = corpus::read_scene_file(path);
@@ -118,7 +134,7 @@ inline std::vector<TriangleCase> corpus_triangles(std::int64_t largest_target) {
     const corpus::Frame frame(scene, kCountOnly);
     for (const Draw& draw : frame.draws()) {
       for (std::size_t t = 0; t < draw.indices.size() / 3; ++t) {
-        TriangleCase c{{}, scene.width, scene.height, scene.samples, draw.fill_rule};
+        TriangleCase c{{}, scene.width, scene.height, samples ? scene.samples : 1, draw.fill_rule};
         for (std::size_t i = 0; i < 3; ++i) c.vertices[i] = draw.vertices[draw.indices[3 * t + i]];
         cases.push_back(c);
       }

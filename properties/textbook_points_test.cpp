@@ -13,12 +13,39 @@ float any_size(Random& random) {
                           : static_cast<float>(std::ldexp(random.unit() + 1e-9, random.between(-30, 4)));
 }
 
-TEST(TextbookPoints, CoverWhatTheOracleSays) {
+struct Hits {
   std::atomic<std::uint64_t> points{0}, lines{0}, wide{0};
-  for_each_case(textbook_scenes(1'000), [&](std::uint64_t n) -> std::string {
-    TriangleCase c = random_triangle(n, false);
-    c.width = std::min(c.width, 9), c.height = std::min(c.height, 9);
-    if (!c.all_finite()) return "";
+};
+
+// The first vertex as a point, the first edge as lines.
+std::string decide_points(const TriangleCase& c, float size, Hits& hits) {
+  if (!c.all_finite()) return "";
+  const Vertex &v0 = c.vertices[0], &v1 = c.vertices[1];
+  const textbook::Line line(v0, v1, c.rule);
+  for (int y = 0; y < c.height; ++y) {
+    for (int x = 0; x < c.width; ++x) {
+      const SamplePosition p{x + 0.5, y + 0.5};
+      const bool point = oracle::point_covers(v0, size, p.x, p.y, c.rule),
+                 thin = oracle::line_covers(v0, v1, p.x, p.y, c.rule),
+                 broad = oracle::wide_line_covers(v0, v1, size, p.x, p.y, c.rule);
+      const char* wrong = textbook::point_covers(v0, size, p, c.rule) != point ? "point"
+                          : line.exits_diamond(p) != thin                      ? "line"
+                          : line.covers_wide(size, p) != broad                 ? "wide line"
+                                                                               : nullptr;
+      if (wrong != nullptr) {
+        return wrong + (" at pixel " + std::to_string(x) + ", " + std::to_string(y)) + ", size " + text(size) +
+               c.text();
+      }
+      hits.points += point ? 1u : 0u, hits.lines += thin ? 1u : 0u, hits.wide += broad ? 1u : 0u;
+    }
+  }
+  return "";
+}
+
+TEST(TextbookPoints, CoverWhatTheOracleSays) {
+  Hits hits;
+  for_each_case(textbook_scenes(1'000), [&hits](std::uint64_t n) {
+    TriangleCase c = random_triangle(n, false, 8);
     Random random(n);
     // Half of the ends lie on samples or corners of diamonds.
     for (Vertex& v : c.vertices) {
@@ -28,28 +55,14 @@ TEST(TextbookPoints, CoverWhatTheOracleSays) {
              static_cast<float>(random.between(-2, 2 * c.height + 2)) / 2 * w, 0, w};
       }
     }
-    const Vertex &v0 = c.vertices[0], &v1 = c.vertices[1];
-    const float size = any_size(random);
-    const textbook::Line line(v0, v1, c.rule);
-    for (int y = 0; y < c.height; ++y) {
-      for (int x = 0; x < c.width; ++x) {
-        const SamplePosition p{x + 0.5, y + 0.5};
-        const bool point = oracle::point_covers(v0, size, p.x, p.y, c.rule),
-                   thin = oracle::line_covers(v0, v1, p.x, p.y, c.rule),
-                   broad = oracle::wide_line_covers(v0, v1, size, p.x, p.y, c.rule);
-        const std::string where =
-            " at pixel " + std::to_string(x) + ", " + std::to_string(y) + ", size " + text(size) + c.text();
-        if (textbook::point_covers(v0, size, p, c.rule) != point) return "point" + where;
-        if (line.exits_diamond(p) != thin) return "line" + where;
-        if (line.covers_wide(size, p) != broad) return "wide line" + where;
-        points += point ? 1u : 0u, lines += thin ? 1u : 0u, wide += broad ? 1u : 0u;
-      }
-    }
-    return "";
+    return decide_points(c, any_size(random), hits);
   });
-  EXPECT_GT(points, 1000u);
-  EXPECT_GT(lines, 1000u);
-  EXPECT_GT(wide, 1000u);
+  EXPECT_GT(hits.points, 1000u);
+  EXPECT_GT(hits.lines, 1000u);
+  EXPECT_GT(hits.wide, 1000u);
+  const std::vector<TriangleCase> cases = corpus_triangles(1 << 10, false);
+  const auto decide = [&](std::uint64_t n) { return decide_points(cases[n], static_cast<float>(1 + n % 4), hits); };
+  for_each_case(cases.size(), decide, Cases::corpus);
 }
 
 // A strip that goes to the right, never steeper than 45 degrees: every column between its ends is hit once, by thin

@@ -20,47 +20,55 @@ std::string against_oracle(TriangleCase c, FillRule rule, const char* name, cons
   const std::vector<std::uint32_t> expected = c.counts();
   for (int y = 0; y < c.height; ++y) {
     for (int x = 0; x < c.width; ++x) {
-      const std::size_t s =
-          static_cast<std::size_t>(y) * static_cast<std::size_t>(c.width) + static_cast<std::size_t>(x);
-      if (covers(triangle, SamplePosition{x + 0.5, y + 0.5}) != (expected[s] != 0)) return name + c.text();
+      if (covers(triangle, SamplePosition{x + 0.5, y + 0.5}) != (expected[place(c, x, y)] != 0)) return name + c.text();
     }
   }
   return "";
 }
 
+std::string decide_in_front(const TriangleCase& c, std::atomic<std::uint64_t>& cases) {
+  if (!c.all_finite() || !c.in_front()) return "";
+  ++cases;
+  std::string found = against_oracle(c, FillRule::top_left, "top-left as its text has it",
+                                     [](const Triangle& t, SamplePosition p) { return covers_top_left(t, p); });
+  if (!found.empty()) return found;
+  found = against_oracle(c, FillRule::top_left, "crossings of a ray to the right",
+                         [&c](const Triangle&, SamplePosition p) { return covers_by_crossings(c.vertices, p, false); });
+  if (!found.empty()) return found;
+  return against_oracle(c, FillRule::southwards, "crossings of a ray downwards",
+                        [&c](const Triangle&, SamplePosition p) { return covers_by_crossings(c.vertices, p, true); });
+}
+
 TEST(TextbookFillRules, TheTextOfDirect3DAndCrossingsAreC3InFrontOfTheEye) {
-  std::atomic<std::uint64_t> cases{0};
-  for_each_case(textbook_scenes(30'000), [&cases](std::uint64_t n) -> std::string {
-    const TriangleCase c = random_triangle(n, false);
-    if (!c.all_finite() || !c.in_front()) return "";
-    ++cases;
-    std::string found = against_oracle(c, FillRule::top_left, "top-left as its text has it",
-                                       [](const Triangle& t, SamplePosition p) { return covers_top_left(t, p); });
-    if (!found.empty()) return found;
-    found =
-        against_oracle(c, FillRule::top_left, "crossings of a ray to the right",
-                       [&c](const Triangle&, SamplePosition p) { return covers_by_crossings(c.vertices, p, false); });
-    if (!found.empty()) return found;
-    return against_oracle(c, FillRule::southwards, "crossings of a ray downwards",
-                          [&c](const Triangle&, SamplePosition p) { return covers_by_crossings(c.vertices, p, true); });
-  });
-  EXPECT_GT(cases, 1000u);
+  std::atomic<std::uint64_t> compared{0};
+  for_each_case(textbook_scenes(30'000),
+                [&compared](std::uint64_t n) { return decide_in_front(random_triangle(n, false), compared); });
+  EXPECT_GT(compared, 1000u);
+  const std::vector<TriangleCase> cases = corpus_triangles(1 << 16, false);
+  const auto decide = [&](std::uint64_t n) { return decide_in_front(cases[n], compared); };
+  for_each_case(cases.size(), decide, Cases::corpus);
+}
+
+std::string decide_light(const TriangleCase& c, std::uint64_t direction) {
+  struct Pair {
+    Light light;
+    FillRule rule;
+  };
+  constexpr Pair kPairs[] = {{{1, 0}, FillRule::top_left},
+                             {{0, 1}, FillRule::southwards_west},
+                             {{-1, 0}, FillRule::bottom_right},
+                             {{0, -1}, FillRule::northwards}};
+  const Pair& pair = kPairs[direction % 4];
+  return against_oracle(c, pair.rule, "light along an axis",
+                        [&pair](const Triangle& t, SamplePosition p) { return covers_by_light(t, p, pair.light); });
 }
 
 TEST(TextbookFillRules, LightAlongAnAxisIsC3) {
-  for_each_case(textbook_scenes(30'000), [](std::uint64_t n) -> std::string {
-    struct Pair {
-      Light light;
-      FillRule rule;
-    };
-    constexpr Pair kPairs[] = {{{1, 0}, FillRule::top_left},
-                               {{0, 1}, FillRule::southwards_west},
-                               {{-1, 0}, FillRule::bottom_right},
-                               {{0, -1}, FillRule::northwards}};
-    const Pair& pair = kPairs[n / 64 % 4];
-    return against_oracle(random_triangle(n, false), pair.rule, "light along an axis",
-                          [&pair](const Triangle& t, SamplePosition p) { return covers_by_light(t, p, pair.light); });
-  });
+  for_each_case(textbook_scenes(30'000),
+                [](std::uint64_t n) { return decide_light(random_triangle(n, false), n / 64); });
+  const std::vector<TriangleCase> cases = corpus_triangles(1 << 16, false);
+  const auto decide = [&](std::uint64_t n) { return decide_light(cases[n / 4], n); };
+  for_each_case(4 * cases.size(), decide, Cases::corpus);
 }
 
 // A fan around a sample tiles its outline: every rule gives each sample inside once. The vertex in the middle lies on a

@@ -73,10 +73,11 @@ TEST(TextbookTraversal, FindsTheOraclesSamplesOnTheCorpus) {
   const std::vector<TriangleCase> cases = corpus_triangles(1 << 20);
   ASSERT_FALSE(cases.empty());
   RecordProperty("triangles", static_cast<int>(cases.size()));
-  for_each_case(cases.size(), [&](std::uint64_t n) {
+  const auto decide = [&](std::uint64_t n) {
     const TriangleCase& c = cases[n];
     return decide_traversals(c, c.width * c.height <= 1 << 16, 4 << (n % 5));
-  });
+  };
+  for_each_case(cases.size(), decide, Cases::corpus);
 }
 
 // Long scan lines, large tiles, accepted tiles: what 16 x 16 targets do not reach.
@@ -90,43 +91,48 @@ TEST(TextbookTraversal, FindsTheOraclesSamplesOnLargerTargets) {
   });
 }
 
-// The tile [0, 2^k)^2 plus an offset, seen by the oracle as a pixel: X and Y divided by 2^k.
+// The tile [0, 2^k)^2 plus an offset, seen by the oracle as a pixel: X and Y divided by 2^k. Counts the tiles that the
+// corners do not reject though nothing meets them.
+std::string decide_tiles(const TriangleCase& c, int log2, std::atomic<std::uint64_t>& blind) {
+  TriangleCase scaled = c;
+  for (Vertex& v : scaled.vertices) {
+    if (!finite(v)) return "";
+    if ((v.x != 0 && std::fabs(v.x) < 0x1p-120f) || (v.y != 0 && std::fabs(v.y) < 0x1p-120f)) return "";
+    v.x = std::ldexp(v.x, -log2), v.y = std::ldexp(v.y, -log2);
+  }
+  scaled.width = (c.width >> log2) + 1, scaled.height = (c.height >> log2) + 1;
+  Statistics statistics;
+  Triangle triangle;
+  if (!triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2], statistics)) return "";
+  const std::vector<std::uint32_t> touched = scaled.counts(Conservative::over),
+                                   inside = scaled.counts(Conservative::inner);
+  for (int y = 0; y < scaled.height; ++y) {
+    for (int x = 0; x < scaled.width; ++x) {
+      const std::size_t s = place(scaled, x, y);
+      const PixelBox tile{x << log2, y << log2, (x + 1) << log2, (y + 1) << log2};
+      const TileClass exact = inside[s] != 0    ? TileClass::accept
+                              : touched[s] != 0 ? TileClass::partial
+                                                : TileClass::reject;
+      TileTest test(triangle, tile);
+      const TileClass corners = test.by_corners(), three = test.by_three_tests();
+      if (three != exact) return "three tests at tile " + std::to_string(x) + ", " + std::to_string(y) + c.text();
+      if ((corners == TileClass::accept) != (exact == TileClass::accept)) return "corners accept" + c.text();
+      if (corners == TileClass::reject && exact != TileClass::reject) return "corners reject" + c.text();
+      if (corners != exact) ++blind;
+    }
+  }
+  return "";
+}
+
 TEST(TextbookTiles, ThreeTestsAreExactAndCornersConservative) {
-  std::atomic<std::uint64_t> blind{0};  // tiles that the corners do not reject though nothing meets them
-  for_each_case(textbook_scenes(60'000), [&blind](std::uint64_t n) -> std::string {
-    const TriangleCase c = random_triangle(n, false);
-    const int log2 = static_cast<int>(n / 3 % 3);
-    TriangleCase scaled = c;
-    for (Vertex& v : scaled.vertices) {
-      if (!finite(v)) return "";
-      if ((v.x != 0 && std::fabs(v.x) < 0x1p-120f) || (v.y != 0 && std::fabs(v.y) < 0x1p-120f)) return "";
-      v.x = std::ldexp(v.x, -log2), v.y = std::ldexp(v.y, -log2);
-    }
-    scaled.width = (c.width >> log2) + 1, scaled.height = (c.height >> log2) + 1;
-    Statistics statistics;
-    Triangle triangle;
-    if (!triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2], statistics)) return "";
-    const std::vector<std::uint32_t> touched = scaled.counts(Conservative::over),
-                                     inside = scaled.counts(Conservative::inner);
-    for (int y = 0; y < scaled.height; ++y) {
-      for (int x = 0; x < scaled.width; ++x) {
-        const std::size_t s =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(scaled.width) + static_cast<std::size_t>(x);
-        const PixelBox tile{x << log2, y << log2, (x + 1) << log2, (y + 1) << log2};
-        const TileClass exact = inside[s] != 0    ? TileClass::accept
-                                : touched[s] != 0 ? TileClass::partial
-                                                  : TileClass::reject;
-        TileTest test(triangle, tile);
-        const TileClass corners = test.by_corners(), three = test.by_three_tests();
-        if (three != exact) return "three tests at tile " + std::to_string(x) + ", " + std::to_string(y) + c.text();
-        if ((corners == TileClass::accept) != (exact == TileClass::accept)) return "corners accept" + c.text();
-        if (corners == TileClass::reject && exact != TileClass::reject) return "corners reject" + c.text();
-        if (corners != exact) ++blind;
-      }
-    }
-    return "";
+  std::atomic<std::uint64_t> blind{0};
+  for_each_case(textbook_scenes(60'000), [&blind](std::uint64_t n) {
+    return decide_tiles(random_triangle(n, false), static_cast<int>(n / 3 % 3), blind);
   });
   EXPECT_GT(blind, 0u) << "the corner test is no longer seen to be weaker";
+  const std::vector<TriangleCase> cases = corpus_triangles(1 << 16, false);
+  const auto decide = [&](std::uint64_t n) { return decide_tiles(cases[n], static_cast<int>(n % 3), blind); };
+  for_each_case(cases.size(), decide, Cases::corpus);
 }
 
 }  // namespace

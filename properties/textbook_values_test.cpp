@@ -18,10 +18,6 @@ float rounded(const mpq_class& value) {
   return oracle::nearest_finite(value.get_num(), value.get_den());
 }
 
-std::size_t place(const TriangleCase& c, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(c.width) + static_cast<std::size_t>(x);
-}
-
 // A value at a vertex: zero, one, a small number or one of any exponent.
 float any_value(Random& random) {
   switch (random.below(4)) {
@@ -76,9 +72,9 @@ TEST(TextbookInterpolation, AllRoutesEndInTheOraclesValue) {
   std::atomic<std::uint64_t> values{0};
   for_each_case(textbook_scenes(20'000),
                 [&values](std::uint64_t n) { return decide_routes(random_triangle(n, false), n, values); });
-  std::vector<TriangleCase> cases = corpus_triangles(1 << 12);
-  for (TriangleCase& c : cases) c.samples = 1;
-  for_each_case(cases.size(), [&](std::uint64_t n) { return decide_routes(cases[n], n, values); });
+  const std::vector<TriangleCase> cases = corpus_triangles(1 << 12, false);
+  const auto decide = [&](std::uint64_t n) { return decide_routes(cases[n], n, values); };
+  for_each_case(cases.size(), decide, Cases::corpus);
   EXPECT_GT(values, 1000u);
 }
 
@@ -156,14 +152,11 @@ std::string decide_clipping(const TriangleCase& c, std::atomic<std::uint64_t>& c
 
 TEST(TextbookPipeline, ClippedInRationalsIsTheImageWithoutClipping) {
   std::atomic<std::uint64_t> corners{0};
-  for_each_case(textbook_scenes(6'000), [&corners](std::uint64_t n) {
-    TriangleCase c = random_triangle(n, false);
-    c.width = std::min(c.width, 8);
-    return decide_clipping(c, corners);
-  });
-  std::vector<TriangleCase> cases = corpus_triangles(1 << 10);
-  for (TriangleCase& c : cases) c.samples = 1;
-  for_each_case(cases.size(), [&](std::uint64_t n) { return decide_clipping(cases[n], corners); });
+  for_each_case(textbook_scenes(6'000),
+                [&corners](std::uint64_t n) { return decide_clipping(random_triangle(n, false, 8), corners); });
+  const std::vector<TriangleCase> cases = corpus_triangles(1 << 10, false);
+  const auto decide = [&](std::uint64_t n) { return decide_clipping(cases[n], corners); };
+  for_each_case(cases.size(), decide, Cases::corpus);
   RecordProperty("on_an_edge_and_on_a_depth_plane", static_cast<int>(corners));
 }
 

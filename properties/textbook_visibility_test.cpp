@@ -40,6 +40,26 @@ struct Crowd {
   }
 };
 
+// The draws of the corpus, without their state; targets of at most so many pixels.
+std::vector<Crowd> corpus_crowds(int largest_target, std::size_t most_triangles) {
+  std::vector<Crowd> crowds;
+  for (const std::string& path : corpus::list_corpus(SUREFILL_CORPUS "/cases")) {
+    const corpus::Scene scene = corpus::read_scene_file(path);
+    if (scene.width * scene.height > largest_target) continue;
+    const corpus::Frame frame(scene, kCountOnly);
+    for (const Draw& draw : frame.draws()) {
+      Crowd crowd{scene.width, scene.height, {}, {}, {}};
+      for (std::size_t i = 0; i + 2 < draw.indices.size(); i += 3) {
+        const std::array<Vertex, 3> v{draw.vertices[draw.indices[i]], draw.vertices[draw.indices[i + 1]],
+                                      draw.vertices[draw.indices[i + 2]]};
+        if (finite(v[0]) && finite(v[1]) && finite(v[2])) crowd.triangles.push_back(v);
+      }
+      if (crowd.triangles.size() <= most_triangles) crowds.push_back(crowd);
+    }
+  }
+  return crowds;
+}
+
 // Triangles of any category, or ones that cut each other: random depths, W of all signs in one of four.
 Crowd random_crowd(std::uint64_t n, int size, std::uint32_t triangles) {
   Random random(n * 0x9E3779B97F4A7C15u + 5);
@@ -67,94 +87,127 @@ Crowd random_crowd(std::uint64_t n, int size, std::uint32_t triangles) {
   return crowd;
 }
 
-TEST(TextbookVisibility, DepthBuffersAreTheOraclesImage) {
+struct DepthTotals {
   std::atomic<std::uint64_t> behind{0}, in_front{0}, plain_reads{0}, reads{0};
-  for_each_case(textbook_scenes(20'000), [&](std::uint64_t n) -> std::string {
-    Crowd crowd = random_crowd(n, n % 8 == 0 ? 40 : 12, n % 8 == 0 ? 24 : 5);
-    crowd.draw_by_oracle();
-    for (const bool hierarchical : {false, true}) {
-      DepthBuffer buffer(crowd.width, crowd.height, hierarchical);
-      for (std::uint32_t t = 0; t < crowd.triangles.size(); ++t) {
-        Statistics statistics;
-        Triangle triangle;
-        const std::array<Vertex, 3>& v = crowd.triangles[t];
-        if (triangle.set_up(v[0], v[1], v[2], statistics)) buffer.draw(triangle, t, FillRule::top_left);
-      }
-      (hierarchical ? reads : plain_reads) += buffer.counts().depth_reads;
-      behind += buffer.counts().tiles_behind;
-      in_front += buffer.counts().tiles_in_front;
-      if (buffer.index() != crowd.index) return hierarchical ? "indices by hierarchical z" : "indices by z-buffer";
-      if (buffer.depth() != crowd.depth) return hierarchical ? "depths by hierarchical z" : "depths by z-buffer";
+};
+
+std::string decide_depth_buffers(Crowd crowd, DepthTotals& totals) {
+  crowd.draw_by_oracle();
+  for (const bool hierarchical : {false, true}) {
+    DepthBuffer buffer(crowd.width, crowd.height, hierarchical);
+    for (std::uint32_t t = 0; t < crowd.triangles.size(); ++t) {
+      Statistics statistics;
+      Triangle triangle;
+      const std::array<Vertex, 3>& v = crowd.triangles[t];
+      if (triangle.set_up(v[0], v[1], v[2], statistics)) buffer.draw(triangle, t, FillRule::top_left);
     }
-    return "";
-  });
-  EXPECT_GT(behind, 0u);
-  EXPECT_GT(in_front, 0u);
-  EXPECT_LT(reads, plain_reads);
+    (hierarchical ? totals.reads : totals.plain_reads) += buffer.counts().depth_reads;
+    totals.behind += buffer.counts().tiles_behind;
+    totals.in_front += buffer.counts().tiles_in_front;
+    if (buffer.index() != crowd.index) return hierarchical ? "indices by hierarchical z" : "indices by z-buffer";
+    if (buffer.depth() != crowd.depth) return hierarchical ? "depths by hierarchical z" : "depths by z-buffer";
+  }
+  return "";
 }
+
+TEST(TextbookVisibility, DepthBuffersAreTheOraclesImage) {
+  DepthTotals totals;
+  for_each_case(textbook_scenes(20'000), [&totals](std::uint64_t n) {
+    return decide_depth_buffers(random_crowd(n, n % 8 == 0 ? 40 : 12, n % 8 == 0 ? 24 : 5), totals);
+  });
+  EXPECT_GT(totals.behind, 0u);
+  EXPECT_GT(totals.in_front, 0u);
+  EXPECT_LT(totals.reads, totals.plain_reads);
+  const std::vector<Crowd> crowds = corpus_crowds(1 << 16, 1000);
+  const auto decide = [&](std::uint64_t n) { return decide_depth_buffers(crowds[n], totals); };
+  for_each_case(crowds.size(), decide, Cases::corpus);
+}
+
+struct PainterTotals {
+  std::atomic<std::uint64_t> cuts{0}, compared{0}, ties{0};
+};
 
 // At a sample where two fragments share the smallest stored depth, the painter knows the real depths and the z-buffer
 // does not. Everywhere else they agree.
-TEST(TextbookVisibility, ThePainterSeesWhatTheDepthBufferSees) {
-  std::atomic<std::uint64_t> cuts{0}, compared{0}, ties{0};
-  for_each_case(textbook_scenes(3'000), [&](std::uint64_t n) -> std::string {
-    Crowd crowd = random_crowd(n, 8, 5);
-    crowd.draw_by_oracle();
-    std::vector<Piece<mpq_class>> pieces, order;
-    std::vector<Triangle> triangles(crowd.triangles.size());
-    std::vector<bool> covers_something(crowd.triangles.size());
-    Statistics statistics;
-    for (std::uint32_t t = 0; t < crowd.triangles.size(); ++t) {
-      const std::array<Vertex, 3>& v = crowd.triangles[t];
-      covers_something[t] = triangles[t].set_up(v[0], v[1], v[2], statistics);
-      pieces.push_back(piece_of<mpq_class>(v, t, crowd.width, crowd.height));
-    }
-    const std::size_t whole = static_cast<std::size_t>(
-        std::count_if(pieces.begin(), pieces.end(), [](const Piece<mpq_class>& p) { return p.polygon.size() > 2; }));
-    paint_order(std::move(pieces), order);
-    cuts += order.size() - whole;
-    std::vector<ScreenPolygon<mpq_class>> screens;
-    for (const Piece<mpq_class>& piece : order) screens.emplace_back(piece.polygon);
-    for (int y = 0; y < crowd.height; ++y) {
-      for (int x = 0; x < crowd.width; ++x) {
-        std::uint32_t painted = kNoTriangle;
-        for (std::size_t k = 0; k < order.size(); ++k) {
-          if (triangles[order[k].index].covers({x + 0.5, y + 0.5}, tie_shift(FillRule::top_left), statistics) &&
-              screens[k].contains(mpq_class(x + 0.5), mpq_class(y + 0.5))) {
-            painted = order[k].index;
-          }
-        }
-        const std::size_t s =
-            static_cast<std::size_t>(y) * static_cast<std::size_t>(crowd.width) + static_cast<std::size_t>(x);
-        int nearest = 0;
-        for (std::size_t t = 0; t < triangles.size(); ++t) {
-          const SamplePosition p{x + 0.5, y + 0.5};
-          if (covers_something[t] && triangles[t].covers(p, tie_shift(FillRule::top_left), statistics) &&
-              triangles[t].rounded_depth(p, statistics) == crowd.depth[s]) {
-            ++nearest;
-          }
-        }
-        if (nearest > 1) {
-          ++ties;
-          continue;
-        }
-        ++compared;
-        if (painted != crowd.index[s]) {
-          return "painted " + std::to_string(painted) + ", not " + std::to_string(crowd.index[s]) + " at pixel " +
-                 std::to_string(x) + ", " + std::to_string(y);
-        }
+std::string decide_painter(Crowd crowd, PainterTotals& totals) {
+  crowd.draw_by_oracle();
+  std::vector<Piece<mpq_class>> pieces, order;
+  std::vector<Triangle> triangles(crowd.triangles.size());
+  std::vector<bool> covers_something(crowd.triangles.size());
+  Statistics statistics;
+  for (std::uint32_t t = 0; t < crowd.triangles.size(); ++t) {
+    const std::array<Vertex, 3>& v = crowd.triangles[t];
+    covers_something[t] = triangles[t].set_up(v[0], v[1], v[2], statistics);
+    pieces.push_back(piece_of<mpq_class>(v, t, crowd.width, crowd.height));
+  }
+  const std::size_t whole = static_cast<std::size_t>(
+      std::count_if(pieces.begin(), pieces.end(), [](const Piece<mpq_class>& p) { return p.polygon.size() > 2; }));
+  paint_order(std::move(pieces), order);
+  totals.cuts += order.size() - whole;
+  std::vector<ScreenPolygon<mpq_class>> screens;
+  for (const Piece<mpq_class>& piece : order) screens.emplace_back(piece.polygon);
+  for (int y = 0; y < crowd.height; ++y) {
+    for (int x = 0; x < crowd.width; ++x) {
+      const SamplePosition p{x + 0.5, y + 0.5};
+      const auto covers = [&](std::size_t t) {
+        return covers_something[t] && triangles[t].covers(p, tie_shift(FillRule::top_left), statistics);
+      };
+      std::uint32_t painted = kNoTriangle;  // by the last piece that paints here
+      for (std::size_t k = order.size(); k-- > 0 && painted == kNoTriangle;) {
+        if (covers(order[k].index) && screens[k].contains(mpq_class(p.x), mpq_class(p.y))) painted = order[k].index;
+      }
+      const std::size_t s =
+          static_cast<std::size_t>(y) * static_cast<std::size_t>(crowd.width) + static_cast<std::size_t>(x);
+      int nearest = 0;
+      for (std::size_t t = 0; t < triangles.size(); ++t) {
+        if (covers(t) && triangles[t].rounded_depth(p, statistics) == crowd.depth[s]) ++nearest;
+      }
+      if (nearest > 1) {
+        ++totals.ties;
+        continue;
+      }
+      ++totals.compared;
+      if (painted != crowd.index[s]) {
+        return "painted " + std::to_string(painted) + ", not " + std::to_string(crowd.index[s]) + " at pixel " +
+               std::to_string(x) + ", " + std::to_string(y);
       }
     }
-    return "";
-  });
-  EXPECT_GT(cuts, 100u);
-  EXPECT_GT(compared, 10 * ties);
+  }
+  return "";
+}
+
+TEST(TextbookVisibility, ThePainterSeesWhatTheDepthBufferSees) {
+  PainterTotals totals;
+  for_each_case(textbook_scenes(3'000),
+                [&totals](std::uint64_t n) { return decide_painter(random_crowd(n, 8, 5), totals); });
+  EXPECT_GT(totals.cuts, 100u);
+  EXPECT_GT(totals.compared, 10 * totals.ties);
+  const std::vector<Crowd> crowds = corpus_crowds(1 << 10, 32);
+  const auto decide = [&](std::uint64_t n) { return decide_painter(crowds[n], totals); };
+  for_each_case(crowds.size(), decide, Cases::corpus);
+}
+
+struct CodecTotals {
+  std::array<std::atomic<std::uint64_t>, 3> used{};
+  std::atomic<std::uint64_t> bytes{0}, raw_bytes{0};
+};
+
+std::string decide_codec(const DepthTile& depth, const ColourTile& colour, CodecTotals& totals) {
+  const std::vector<std::uint8_t> depth_code = encode(depth), colour_code = encode(colour);
+  ++totals.used[depth_code[0] % 4];
+  totals.bytes += depth_code.size(), totals.raw_bytes += 256;
+  const DepthTile depth_back = decode_depth(depth_code);
+  for (std::size_t s = 0; s < 64; ++s) {
+    if (std::bit_cast<std::uint32_t>(depth_back[s]) != std::bit_cast<std::uint32_t>(depth[s]))
+      return "a depth is changed";
+  }
+  if (decode_colour(colour_code) != colour) return "a colour is changed";
+  return depth_code.size() > 257 || colour_code.size() > 260 ? "longer than raw" : "";
 }
 
 TEST(TextbookCodec, LosesNothing) {
-  std::array<std::atomic<std::uint64_t>, 3> used{};
-  std::atomic<std::uint64_t> bytes{0}, raw_bytes{0};
-  for_each_case(textbook_scenes(60'000), [&](std::uint64_t n) -> std::string {
+  CodecTotals totals;
+  for_each_case(textbook_scenes(60'000), [&totals](std::uint64_t n) {
     Random random(n);
     DepthTile depth;
     ColourTile colour;
@@ -174,20 +227,34 @@ TEST(TextbookCodec, LosesNothing) {
                   : kind == 1 ? static_cast<std::uint32_t>(s % 8 * 9 + s / 8 * 0x300 + 0x80'0000)
                               : static_cast<std::uint32_t>(random.bits());
     }
-    const std::vector<std::uint8_t> depth_code = encode(depth), colour_code = encode(colour);
-    ++used[depth_code[0] % 4];
-    bytes += depth_code.size(), raw_bytes += 256;
-    const DepthTile depth_back = decode_depth(depth_code);
-    for (std::size_t s = 0; s < 64; ++s) {
-      if (std::bit_cast<std::uint32_t>(depth_back[s]) != std::bit_cast<std::uint32_t>(depth[s]))
-        return "a depth is changed";
-    }
-    if (decode_colour(colour_code) != colour) return "a colour is changed";
-    if (depth_code.size() > 257 || colour_code.size() > 260) return "longer than raw";
-    return "";
+    return decide_codec(depth, colour, totals);
   });
-  for (const std::atomic<std::uint64_t>& count : used) EXPECT_GT(count, 0u);
-  EXPECT_LT(bytes, raw_bytes);
+  for (const std::atomic<std::uint64_t>& count : totals.used) EXPECT_GT(count, 0u);
+  EXPECT_LT(totals.bytes, totals.raw_bytes);
+
+  // The depths and indices of the corpus; tiles at the rim repeat the last row and column.
+  std::vector<Crowd> crowds = corpus_crowds(1 << 16, 1000);
+  const auto decide = [&](std::uint64_t n) -> std::string {
+    Crowd& crowd = crowds[n];
+    crowd.draw_by_oracle();
+    for (int top = 0; top < crowd.height; top += kCodecTile) {
+      for (int left = 0; left < crowd.width; left += kCodecTile) {
+        DepthTile depth;
+        ColourTile colour;
+        for (std::size_t s = 0; s < 64; ++s) {
+          const int x = std::min(left + static_cast<int>(s % 8), crowd.width - 1),
+                    y = std::min(top + static_cast<int>(s / 8), crowd.height - 1);
+          const std::size_t from =
+              static_cast<std::size_t>(y) * static_cast<std::size_t>(crowd.width) + static_cast<std::size_t>(x);
+          depth[s] = crowd.depth[from], colour[s] = crowd.index[from];
+        }
+        const std::string found = decide_codec(depth, colour, totals);
+        if (!found.empty()) return found;
+      }
+    }
+    return "";
+  };
+  for_each_case(crowds.size(), decide, Cases::corpus);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 // The C interface over the engine. Structs become their C++ counterparts; the engine checks what they hold, here only
 // struct sizes and what C++ takes by reference are checked. Nothing throws, so nothing crosses the boundary.
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -93,21 +94,32 @@ class Arguments {
     // Elements lie as far apart as the caller's struct is long.
     const std::size_t stride = from->struct_size;
     const auto* bytes = reinterpret_cast<const unsigned char*>(from);
-    std::size_t attributes = 0;
+    std::size_t attributes = 0, strided = 0;
     for (std::size_t i = 0; i < count; ++i) {
       surefill_draw c;
       if (!read_draw(bytes + i * stride, stride, &c)) return SUREFILL_DRAW_STRUCT_SIZE;
+      if (!good_stride(c)) return SUREFILL_DRAW_VERTEX_STRIDE;
       attributes += listed_attributes(c);
+      strided += strided_vertices(c);
     }
     draws_.reset(new (std::nothrow) Draw[count]);
     attributes_.reset(new (std::nothrow) AttributeArray[attributes]);
-    if (draws_ == nullptr || attributes_ == nullptr) return SUREFILL_OUT_OF_MEMORY;
+    vertices_.reset(new (std::nothrow) Vertex[strided]);
+    if (draws_ == nullptr || attributes_ == nullptr || vertices_ == nullptr) return SUREFILL_OUT_OF_MEMORY;
     AttributeArray* next = attributes_.get();
+    Vertex* copy = vertices_.get();
     for (std::size_t i = 0; i < count; ++i) {
       surefill_draw c;
       read_draw(bytes + i * stride, stride, &c);
       convert(c, draws_[i], next);
       next += listed_attributes(c);
+      if (const std::size_t n = strided_vertices(c); n != 0) {
+        const auto* from_bytes = reinterpret_cast<const unsigned char*>(c.vertices);
+        for (std::size_t v = 0; v < n; ++v) std::memcpy(copy + v, from_bytes + v * c.vertex_stride, sizeof(Vertex));
+        draws_[i].vertices = {copy, n};
+        copy += n;
+        overlaps_ = overlaps_ || touched_by_outputs(from_bytes, (n - 1) * c.vertex_stride + sizeof(Vertex));
+      }
     }
     draws = {draws_.get(), count};
     return SUREFILL_OK;
@@ -118,12 +130,45 @@ class Arguments {
     return status != SUREFILL_OK ? status : read_draws(c_draws, count);
   }
 
+  // Does an output overlap strided vertices? Then validate() finds an error: this one, or an earlier one.
+  bool overlaps() const { return overlaps_; }
+
+  // As surefill::validate; that sees the copies of strided vertices, and not that an output overlaps the originals.
+  Status validate() const {
+    const Status status = surefill::validate(target, draws);
+    return status == Status::ok && overlaps_ ? Status::target_overlap : status;
+  }
+
   Target target;
   std::span<const Draw> draws;
 
  private:
   static bool read_draw(const void* from, std::size_t stride, surefill_draw* c) {
     return read_struct(from, SUREFILL_SIZE_TO(surefill_draw, culling_box), c) && c->struct_size == stride;
+  }
+
+  static bool good_stride(const surefill_draw& c) {
+    if (c.vertex_stride == 0) return true;
+    return c.vertex_stride >= sizeof(Vertex) && c.vertex_stride % alignof(Vertex) == 0 &&
+           c.vertex_count <= static_cast<std::size_t>(PTRDIFF_MAX) / c.vertex_stride;
+  }
+
+  // How many vertices have to be copied, because the engine takes them dense. Precondition: the stride is good.
+  static std::size_t strided_vertices(const surefill_draw& c) {
+    const bool dense = c.vertex_stride == 0 || c.vertex_stride == sizeof(Vertex);
+    return dense || c.vertices == nullptr || c.vertex_count > UINT32_MAX ? 0 : c.vertex_count;
+  }
+
+  bool touched_by_outputs(const unsigned char* from, std::size_t size) const {
+    const auto begin = reinterpret_cast<std::uintptr_t>(from);
+    const auto overlaps = [begin, size](const auto& output) {
+      const auto output_begin = reinterpret_cast<std::uintptr_t>(output.data());
+      return !output.empty() && output_begin < begin + size && begin < output_begin + output.size_bytes();
+    };
+    return overlaps(target.count) || overlaps(target.index) || overlaps(target.depth) ||
+           overlaps(target.barycentrics) ||
+           std::any_of(target.attributes.begin(), target.attributes.end(),
+                       [&overlaps](const AttributeTarget& attribute) { return overlaps(attribute.values); });
   }
 
   // How many of a draw's attribute arrays can be read.
@@ -160,6 +205,8 @@ class Arguments {
   AttributeTarget attribute_targets_[kMaxAttributes];
   std::unique_ptr<Draw[]> draws_;
   std::unique_ptr<AttributeArray[]> attributes_;
+  std::unique_ptr<Vertex[]> vertices_;  // of all draws whose vertices have a stride
+  bool overlaps_ = false;               // an output overlaps one of the originals
 };
 
 constexpr std::size_t kLeastStatistics = SUREFILL_SIZE_TO(surefill_statistics, path);
@@ -225,6 +272,8 @@ const char* surefill_status_text(surefill_status status) {
       return "the options' struct_size is not known to this version";
     case SUREFILL_STATISTICS_STRUCT_SIZE:
       return "the statistics' struct_size is not known to this version";
+    case SUREFILL_DRAW_VERTEX_STRIDE:
+      return "a draw's vertex stride is under 16 bytes, no multiple of 4, or too large";
     default:
       return status_text(static_cast<Status>(status));
   }
@@ -261,7 +310,7 @@ void surefill_sample_location(int32_t samples, int32_t n, int32_t* x, int32_t* y
 surefill_status surefill_validate(const surefill_target* target, const surefill_draw* draws, size_t draw_count) {
   Arguments arguments;
   const surefill_status status = arguments.read(target, draws, draw_count);
-  return status != SUREFILL_OK ? status : to_c(validate(arguments.target, arguments.draws));
+  return status != SUREFILL_OK ? status : to_c(arguments.validate());
 }
 
 surefill_status surefill_render(const surefill_target* target, const surefill_draw* draws, size_t draw_count,
@@ -269,7 +318,7 @@ surefill_status surefill_render(const surefill_target* target, const surefill_dr
   Arguments arguments;
   if (const surefill_status status = arguments.read(target, draws, draw_count); status != SUREFILL_OK) return status;
   return with_options(options, statistics, [&](Statistics& s, const Options& o) {
-    return render(arguments.target, arguments.draws, &s, o);
+    return arguments.overlaps() ? arguments.validate() : render(arguments.target, arguments.draws, &s, o);
   });
 }
 

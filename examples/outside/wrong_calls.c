@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0 */
 /* Wrong calls through the C interface: each returns the status that names the argument, and writes nothing. */
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -145,6 +146,24 @@ static void many_attributes(Call* c) {
 static void null_vertices(Call* c) {
   c->draws[1].vertices = NULL;
 }
+static void small_vertex_stride(Call* c) {
+  c->draws[1].vertex_stride = 12;
+}
+static void odd_vertex_stride(Call* c) {
+  c->draws[1].vertex_stride = 18;
+}
+static void negative_vertex_stride(Call* c) {
+  c->draws[1].vertex_stride = (size_t)-16;
+}
+static void huge_vertex_stride(Call* c) {
+  c->draws[1].vertex_stride = (size_t)-1 / 4 + 1;
+}
+static void strided_null_vertices(Call* c) {
+  c->draws[1].vertices = NULL, c->draws[1].vertex_stride = 32;
+}
+static void output_is_strided_input(Call* c) {
+  c->draws[1].vertices = (const surefill_vertex*)c->barycentrics, c->draws[1].vertex_stride = 20;
+}
 static void null_indices(Call* c) {
   c->draws[1].indices = NULL;
 }
@@ -243,6 +262,12 @@ static const struct {
     CASE(null_attribute_list, SUREFILL_TARGET_ATTRIBUTES),
     CASE(many_attributes, SUREFILL_TARGET_ATTRIBUTES),
     CASE(null_vertices, SUREFILL_DRAW_VERTICES),
+    CASE(small_vertex_stride, SUREFILL_DRAW_VERTEX_STRIDE),
+    CASE(odd_vertex_stride, SUREFILL_DRAW_VERTEX_STRIDE),
+    CASE(negative_vertex_stride, SUREFILL_DRAW_VERTEX_STRIDE),
+    CASE(huge_vertex_stride, SUREFILL_DRAW_VERTEX_STRIDE),
+    CASE(strided_null_vertices, SUREFILL_DRAW_VERTICES),
+    CASE(output_is_strided_input, SUREFILL_TARGET_OVERLAP),
     CASE(null_indices, SUREFILL_DRAW_INDICES),
     CASE(four_indices, SUREFILL_DRAW_INDICES),
     CASE(out_of_range, SUREFILL_DRAW_INDEX_OUT_OF_RANGE),
@@ -291,6 +316,42 @@ static void check_render(void) {
   make(&call);
   call.vertices[0].x = (float)NAN; /* no error: the triangle is dropped and counted [B1] */
   check("a NaN", render(&call) == SUREFILL_OK && call.statistics.dropped == 2 && call.index[0] == SUREFILL_NO_TRIANGLE);
+}
+
+/* Vertices among other data, and a struct without the member for it: the image is that of the correct call. */
+static void check_vertex_stride(void) {
+  static Call call, expected;
+  struct {
+    surefill_vertex position;
+    float normal[3];
+  } interleaved[3];
+  size_t older[2 * offsetof(surefill_draw, vertex_stride) / sizeof(size_t)];
+  const size_t older_size = offsetof(surefill_draw, vertex_stride);
+  size_t i;
+  make(&expected);
+  check("dense", render(&expected) == SUREFILL_OK);
+  memset(interleaved, 0xFF, sizeof interleaved); /* NaNs between the vertices */
+  make(&call);
+  for (i = 0; i < 3; ++i) interleaved[i].position = call.vertices[i];
+  for (i = 0; i < 2; ++i) {
+    call.draws[i].vertices = &interleaved[0].position, call.draws[i].vertex_stride = sizeof interleaved[0];
+  }
+  check("validate with a stride", surefill_validate(&call.target, call.draws, 2) == SUREFILL_OK);
+  check("stride", render(&call) == SUREFILL_OK);
+  check("image with a stride", memcmp(call.count, expected.count, sizeof call.count) == 0 &&
+                                   memcmp(call.depth, expected.depth, sizeof call.depth) == 0 &&
+                                   memcmp(call.barycentrics, expected.barycentrics, sizeof call.barycentrics) == 0);
+  check("statistics with a stride", call.statistics.rasterized == 2 && call.statistics.dropped == 0);
+  for (i = 0; i < 2; ++i) call.draws[i].vertex_stride = sizeof(surefill_vertex);
+  for (i = 0; i < 2; ++i) call.draws[i].vertices = call.vertices;
+  check("stride 16", render(&call) == SUREFILL_OK && memcmp(call.depth, expected.depth, sizeof call.depth) == 0);
+  make(&call);
+  for (i = 0; i < 2; ++i) {
+    call.draws[i].struct_size = older_size, call.draws[i].vertex_stride = 12;
+    memcpy((char*)older + i * older_size, &call.draws[i], older_size);
+  }
+  check("shorter struct", surefill_render(&call.target, (const surefill_draw*)older, 2, NULL, NULL) == SUREFILL_OK &&
+                              memcmp(call.depth, expected.depth, sizeof call.depth) == 0);
 }
 
 static void check_to_pixel(void) {
@@ -342,6 +403,7 @@ static void check_occlusion(void) {
 
 int main(void) {
   check_render();
+  check_vertex_stride();
   check_to_pixel();
   check_occlusion();
   check("unknown status", strcmp(surefill_status_text((surefill_status)1023), "unknown status") == 0);

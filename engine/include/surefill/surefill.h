@@ -74,13 +74,14 @@ typedef enum surefill_status {
   SUREFILL_QUERY_BOXES,                  /* boxes or rectangles null, or with a number that is not finite */
   SUREFILL_QUERY_ANSWERS,                /* answers null, or not one for each box */
   /* Of this interface alone. */
-  SUREFILL_NULL_TARGET = 1000,    /* target is null */
-  SUREFILL_NULL_VIEWPORT,         /* viewport is null */
-  SUREFILL_NULL_OCCLUSION,        /* the occlusion buffer, or the place for a new one, is null */
-  SUREFILL_TARGET_STRUCT_SIZE,    /* target->struct_size is no struct size this version knows */
-  SUREFILL_DRAW_STRUCT_SIZE,      /* draws[i].struct_size: the same, or draws of several sizes in one list */
-  SUREFILL_OPTIONS_STRUCT_SIZE,   /* options->struct_size: the same */
-  SUREFILL_STATISTICS_STRUCT_SIZE /* statistics->struct_size: the same */
+  SUREFILL_NULL_TARGET = 1000,     /* target is null */
+  SUREFILL_NULL_VIEWPORT,          /* viewport is null */
+  SUREFILL_NULL_OCCLUSION,         /* the occlusion buffer, or the place for a new one, is null */
+  SUREFILL_TARGET_STRUCT_SIZE,     /* target->struct_size is no struct size this version knows */
+  SUREFILL_DRAW_STRUCT_SIZE,       /* draws[i].struct_size: the same, or draws of several sizes in one list */
+  SUREFILL_OPTIONS_STRUCT_SIZE,    /* options->struct_size: the same */
+  SUREFILL_STATISTICS_STRUCT_SIZE, /* statistics->struct_size: the same */
+  SUREFILL_DRAW_VERTEX_STRIDE      /* vertex_stride: under 16, no multiple of 4, or the array exceeds memory */
 } surefill_status;
 
 /* Which side owns a sample that lies exactly on an edge [C3]. */
@@ -173,7 +174,7 @@ typedef struct surefill_attribute_array {
 /* Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2]. */
 typedef struct surefill_draw {
   size_t struct_size;              /* sizeof(surefill_draw); the same in all draws of a list */
-  const surefill_vertex* vertices; /* dense, 16 bytes each */
+  const surefill_vertex* vertices; /* the first; the next is vertex_stride bytes further on */
   size_t vertex_count;
   const uint32_t* indices;
   size_t index_count;          /* three a triangle */
@@ -191,6 +192,7 @@ typedef struct surefill_draw {
   const surefill_scissor* scissor;    /* NULL: none */
   const surefill_grid* grid;          /* NULL: none, positions are exact */
   const surefill_vertex* culling_box; /* NULL, or 8 corners whose hull contains the draw: the caller's promise [M6] */
+  size_t vertex_stride; /* bytes, at least 16, a multiple of 4; 0 means 16: dense. Other strides cost a copy. */
 } surefill_draw;
 
 /* An attribute image. Component c of sample s is values[s * components + c]. */

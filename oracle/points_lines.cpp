@@ -15,11 +15,6 @@ struct Near {
   std::array<mpq_class, 3> r;
 };
 
-Near operator+(const Near& a, const Near& b) {
-  Near sum;
-  for (std::size_t i = 0; i < 3; ++i) sum.r[i] = a.r[i] + b.r[i];
-  return sum;
-}
 Near operator*(const mpq_class& f, const Near& a) {
   Near product;
   for (std::size_t i = 0; i < 3; ++i) product.r[i] = f * a.r[i];

@@ -109,7 +109,7 @@ enum {
 
 typedef struct surefill_adapter_model {
   uint32_t kind;
-  uint32_t grid_bits;     /* 0..12 */
+  uint32_t grid_bits;     /* 0..12. Of a model UNKNOWN: the bits of subpixel precision that it reports, 0: none */
   uint32_t grid_rounding; /* SUREFILL_ADAPTER_NEAREST_EVEN, ... */
   uint32_t grid_offset_x; /* 0..15, in 2^-(bits + 4) pixels */
   uint32_t grid_offset_y;

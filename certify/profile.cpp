@@ -142,21 +142,15 @@ Range value_range(const Triangle& triangle, const std::array<double, 3>& above, 
   return range;
 }
 
-std::int64_t ordered(float value) {
-  const auto bits = std::bit_cast<std::int32_t>(value);
-  return bits < 0 ? -static_cast<std::int64_t>(bits & 0x7FFFFFFF) : bits;
-}
-
-double ulp_distance(float a, float b) {
-  return static_cast<double>(std::abs(ordered(a) - ordered(b)));
-}
-
-// Notes the error of one value; true if it is more than granted.
+// Notes the error of one value, in ULP of the largest of the vertices' values (next to 0 its own ULP says nothing of
+// how it was found); true if it is more than granted.
 bool note(Deviation& deviation, float expected, float actual, Range range, double largest) {
   if (std::isnan(actual)) return true;
-  deviation.ulp = std::max(deviation.ulp, ulp_distance(expected, actual));
   const double rounding = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126;
   const double error = std::abs(static_cast<double>(actual) - expected);
+  const double ulp =
+      std::ldexp(1.0, std::ilogb(std::max({largest, std::abs(static_cast<double>(expected)), 0x1p-126})) - 23);
+  deviation.ulp = std::max(deviation.ulp, error / ulp);
   const double granted = std::max({range.high - expected, expected - range.low, 0.0}) + rounding;
   if (!std::isfinite(granted)) return false;
   deviation.granted = std::max(deviation.granted, error / granted);
@@ -317,6 +311,38 @@ CaseResult skipped() {
 
 }  // namespace
 
+struct Tiling::Triangles {
+  std::vector<Edges> edges;
+};
+
+Tiling::Tiling(const Scene& scene) : triangles_(std::make_unique<Triangles>()) {
+  const corpus::Frame frame(scene, {false, false, false, false, false});
+  for (const auto& [identifier, triangle] : triangles_of(frame.draws())) triangles_->edges.push_back(triangle.edges);
+}
+
+Tiling::~Tiling() = default;
+
+bool Tiling::around(double x, double y) const {
+  for (const double dx : {-kCertainDistance, 0.0, kCertainDistance}) {
+    for (const double dy : {-kCertainDistance, 0.0, kCertainDistance}) {
+      if (dx == 0 && dy == 0) continue;
+      int covers = 0;
+      for (const Edges& edges : triangles_->edges) {
+        if (!(std::abs(edges.d) > kRoundings * edges.d_magnitude)) return false;
+        bool inside = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const long double value = edges.at(i, x + dx, y + dy);
+          if (!(std::abs(value) > edges.error(i, x + dx, y + dy))) return false;
+          inside = inside && (value > 0) == (edges.d > 0);
+        }
+        if (inside) ++covers;
+      }
+      if (covers != 1) return false;
+    }
+  }
+  return true;
+}
+
 double granted_position(std::uint32_t profile) {
   return profile == SUREFILL_ADAPTER_PROFILE_D3D11 ? 0x1p-8 : 0x1p-4;
 }
@@ -344,11 +370,30 @@ bool out_of_range(std::span<const Draw> draws) {
     }
     for (const AttributeArray& array : draw.attributes) {
       for (const float value : array.values) {
-        if (!(std::abs(value) <= 0x1p100f)) return true;
+        if (!ordinary(value)) return true;
       }
     }
   }
   return false;
+}
+
+bool projects_clearly(std::span<const Draw> draws) {
+  const auto clear = [](double position, int offset, const Grid& grid) {
+    const double steps = std::ldexp(position - std::ldexp(offset, -(grid.bits + 4)), grid.bits);
+    const double turn = grid.rounding == GridRounding::truncate ? 0 : 0.5;
+    const double beyond = steps - turn, distance = std::abs(beyond - std::nearbyint(beyond));
+    return std::abs(position) < 0x1p10 && distance >= kClearSteps;
+  };
+  for (const Draw& draw : draws) {
+    for (const Vertex& v : draw.vertices) {
+      int exponent = 0;
+      if (!(v.w > 0) || std::frexp(v.w, &exponent) == 0.5f) continue;
+      if (!draw.grid) return false;
+      const double x = static_cast<double>(v.x) / v.w, y = static_cast<double>(v.y) / v.w;
+      if (!clear(x, draw.grid->offset_x, *draw.grid) || !clear(y, draw.grid->offset_y, *draw.grid)) return false;
+    }
+  }
+  return true;
 }
 
 CaseResult compare_rival(const Scene& original, Rival& rival, const RivalJudgement& judgement) {
@@ -361,6 +406,7 @@ CaseResult compare_rival(const Scene& original, Rival& rival, const RivalJudgeme
     if (out_of_range(frame.draws())) return skipped();
     const bool certain = judgement.certain_only || leaves_open(frame.draws());
     if (certain && !plain(scene)) return skipped();
+    if (judgement.coverage && !certain && !projects_clearly(frame.draws())) return skipped();
     // Whether a fragment near depth 0 or 1 is clipped depends on how precise its depth is.
     for (const corpus::SceneDraw& draw : scene.draws) {
       if (draw.depth_mode == DepthMode::clip) return skipped();

@@ -5,6 +5,8 @@
 #ifndef SUREFILL_CERTIFY_PROFILE_HPP
 #define SUREFILL_CERTIFY_PROFILE_HPP
 
+#include <memory>
+
 #include "certify/adapters/rival.hpp"
 #include "certify/checks.hpp"
 #include "corpus/scene.hpp"
@@ -31,9 +33,29 @@ struct RivalJudgement {
 // Is any vertex behind the eye, beyond the guard band, or not a number?
 bool leaves_open(std::span<const Draw> draws);
 
-// Components other than 0 whose magnitude is outside 2^-32 .. 2^32, or attributes beyond 2^100: no standard says what
-// becomes of them, so only a rasterizer of the profile exact is held to them.
+// Is what the rival snaps beyond doubt? A rasterizer does not snap the exact quotient X/W but one that it has rounded
+// before, so to be held to an exact model W must be a power of two; or, under a Grid, X/W and Y/W are below 2^10 and
+// lie kClearSteps grid steps and more from where the rounding to the grid turns.
+inline constexpr double kClearSteps = 0x1p-4;
+bool projects_clearly(std::span<const Draw> draws);
+
+// Components and attributes other than 0 whose magnitude is outside 2^-32 .. 2^32: no standard says what becomes of
+// them, so only a rasterizer of the profile exact is held to them.
 bool out_of_range(std::span<const Draw> draws);
+
+// The triangles of a scene as exact geometry.
+class Tiling {
+ public:
+  explicit Tiling(const corpus::Scene& scene);
+  ~Tiling();
+  // Is everything 1/16 pixel around the point covered once, beyond doubt? Then so is the point by whoever snaps
+  // neighbours alike.
+  bool around(double x, double y) const;
+
+ private:
+  struct Triangles;
+  std::unique_ptr<Triangles> triangles_;
+};
 
 // Draws the scene with both. Skipped, a difference, or neither; with the largest errors of values.
 CaseResult compare_rival(const corpus::Scene& scene, adapters::Rival& rival, const RivalJudgement& judgement = {});

@@ -34,6 +34,10 @@ constexpr const char* kRivalLimits[] = {
     "cases that need what the rasterizer does not claim to have are skipped",
     "unless the profile is exact: behind the eye and beyond the guard band, 1/16 pixel around edges is left open",
     "unless the profile is exact: numbers beyond 2^32 or below 2^-32 are not judged",
+    "unless the profile is exact: the exact model and meshes ask for positions that are snapped without doubt: W a "
+    "power "
+    "of two, or X/W and Y/W 1/16 grid step and more from where the rounding turns",
+    "where clip space is taken, no vertex is rounded on the way: its clip and pixel forms are both exact in float32",
 };
 constexpr const char* kLimits[] = {
     "sampled checks speak for the cases drawn, not for all; exhaustive ones for all of the N named",

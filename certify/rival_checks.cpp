@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <memory>
 #include <utility>
 
+#include "certify/adapters/frame.hpp"
+#include "certify/perspective_check.hpp"
 #include "certify/profile.hpp"
 #include "properties/check.hpp"
 #include "properties/generators.hpp"
@@ -27,6 +30,11 @@ bool exact_profile(const Rival& rival) {
 
 bool known_model(const Rival& rival) {
   return rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
+}
+
+bool is_open(const Scene& scene) {
+  const corpus::Frame frame(scene, {false, false, false, false, false});
+  return leaves_open(frame.draws());
 }
 
 CaseResult skipped_case() {
@@ -67,7 +75,13 @@ CaseResult property_case(const properties::Property& property, const Scene& scen
     const std::uint32_t judged = exact ? adapters::kAllOutputs : static_cast<std::uint32_t>(SUREFILL_ADAPTER_COUNT);
     const properties::Renderer renderer = adapters::rival_renderer(rival, judged);
     const auto judged_frames = [&](const Target& target, std::span<const Draw> draws) {
-      if (!exact && (leaves_open(draws) || out_of_range(draws))) throw adapters::RivalSkips("open in its profile");
+      // How precise depth is at the planes of depth clipping is open, too.
+      const bool clips =
+          std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.depth_mode == DepthMode::clip; });
+      if (!exact && (clips || leaves_open(draws) || out_of_range(draws) ||
+                     !projects_clearly(adapters::under_model(draws, rival.info())))) {
+        throw adapters::RivalSkips("open in its profile");
+      }
       return renderer(target, draws);
     };
     CaseResult result = result_of(property.decide(scene, judged_frames));
@@ -172,6 +186,19 @@ CaseResult alone_case(const Scene& original, Rival& rival) {
   });
 }
 
+// A rasterizer that is not exact may have a depth buffer of 0 to 1 and no subnormals: depths come into that range (with
+// a vertex behind the eye, they become 1/2 throughout), attributes out of range become 1.
+void make_ordinary(corpus::SceneDraw& draw) {
+  const bool front = std::all_of(draw.vertices.begin(), draw.vertices.end(), [](const auto& v) { return v.w > 0; });
+  for (corpus::SceneVertex& v : draw.vertices) {
+    if (!draw.viewport) v.z = front ? std::clamp(v.z, 0.0f, v.w) : v.w / 2;
+    for (float& value : v.attributes) {
+      const float magnitude = std::abs(value);
+      if (value != 0 && !(magnitude >= 0x1p-32f && magnitude <= 0x1p32f)) value = 1;
+    }
+  }
+}
+
 // What random scenes may hold, so that few of them are skipped: every second one is plain.
 Scene scene_for(const Rival& rival, std::uint64_t number, std::uint64_t seed) {
   const std::uint32_t features = rival.info().features;
@@ -189,6 +216,11 @@ Scene scene_for(const Rival& rival, std::uint64_t number, std::uint64_t seed) {
         (attribute.interpolation == Interpolation::noperspective && !(features & SUREFILL_ADAPTER_NOPERSPECTIVE)) ||
         (attribute.interpolation == Interpolation::flat && !(features & SUREFILL_ADAPTER_FLAT));
     if (lacks) attribute.interpolation = Interpolation::perspective;
+  }
+  if (!(features & SUREFILL_ADAPTER_INITIAL_DEPTH)) scene.initial_depth.clear();
+  for (corpus::SceneDraw& draw : scene.draws) {
+    if (!(features & SUREFILL_ADAPTER_DEPTH_READ_ONLY)) draw.depth_write = true;
+    if (!exact_profile(rival)) make_ordinary(draw);
   }
   return scene;
 }
@@ -261,6 +293,12 @@ class List {
         return (simplifies ? property_case(property, scene, rival) : compare(scene)).finding;
       };
     }
+    if (!subject_.slow) {
+      Check& check = add(kInvariants, "mesh-perspective", "T1",
+                         "a mesh in perspective of some thousand triangles covers each sample of 1920 x 1080 once", 0);
+      make_perspective_check(settings_, rival, check);
+    }
+    if (subject_.reported_bits > 0) add_precision_check();
     add_random(kInvariants, "clear-samples", "C2",
                "samples 1/16 pixel and more away from all edges are covered as often as triangles lie over them",
                cases() * 8, [](const Scene& scene, Rival& r) {
@@ -269,15 +307,48 @@ class List {
     add_random(kInvariants, "alone", "T5, V1",
                "an image is what its triangles drawn alone make of it, to the bit, and the same when drawn again",
                cases() * 2, alone_case);
-    add_random(
-        kInvariants, "values", "I1-I4",
-        fmt::format("where one triangle is visible, its index, depth and attributes are within what the profile {} "
-                    "grants",
-                    adapters::profile_name(rival.info().model.profile)),
-        cases() * 8, [](const Scene& scene, Rival& r) {
-          if (!known_model(r)) return skipped_case();
-          return compare_rival(scene, r, {false, true, false});
-        });
+    const std::string granted = adapters::profile_name(rival.info().model.profile);
+    add_values("values",
+               "where one triangle is visible, its index, depth and attributes are within what the profile " + granted +
+                   " grants",
+               false);
+    if (exact_profile(rival)) return;
+    add_values("values-clipped", "the same with vertices behind the eye or beyond the guard band", true);
+  }
+
+  // Exact profiles have one check of values, others two: apart from those of triangles that a clipper cuts.
+  void add_values(const std::string& name, const std::string& claim, bool clipped) {
+    const bool all = exact_profile(*subject_.rival);
+    add_random(kInvariants, name, "I1-I4", claim, cases() * 8, [all, clipped](const Scene& scene, Rival& r) {
+      if (!known_model(r)) return skipped_case();
+      if (!all && is_open(scene) != clipped) return skipped_case();
+      return compare_rival(scene, r, {false, true, false});
+    });
+  }
+
+  void add_precision_check() {
+    const bool strict = subject_.rival->info().model.profile == SUREFILL_ADAPTER_PROFILE_VULKAN;
+    Check& check = add(kInvariants, "precision", "6",
+                       fmt::format("positions have the {} bits of subpixel precision that it reports{}",
+                                   subject_.reported_bits, strict ? ", and no others" : ", or more"),
+                       1);
+    check.unit = "rasterizer";
+    check.exhaustive = true;
+    check.run = [&subject = subject_, strict](std::uint64_t) {
+      const surefill_adapter_model& model = subject.inference.model;
+      if (!subject.inference.fits) return skipped_case();
+      CaseResult result;
+      result.samples = 1;
+      const bool grid = model.kind == SUREFILL_ADAPTER_MODEL_GRID;
+      if (grid && model.grid_bits >= subject.reported_bits && (!strict || model.grid_bits == subject.reported_bits)) {
+        return result;
+      }
+      if (!grid && !strict) return result;
+      result.differences = 1;
+      result.finding = "probing finds " + adapters::describe_model(model);
+      return result;
+    };
+    check.still_fails = nullptr;
   }
 
   void add_model_check() {
@@ -308,8 +379,8 @@ class List {
     add_model_check();
     Rival& rival = *subject_.rival;
     const auto equal = [](const Scene& scene, Rival& r) {
-      if (!known_model(r)) return skipped_case();
-      return compare_rival(scene, r);
+      if (!known_model(r) || (!exact_profile(r) && is_open(scene))) return skipped_case();
+      return compare_rival(scene, r, {false, exact_profile(r), true});
     };
     const char* claim = exact_profile(rival) ? "every output is the oracle's under the model, bit for bit"
                                              : "coverage is the oracle's under the model, sample by sample";
@@ -368,6 +439,7 @@ RivalSubject meet_rival(Rival& rival) {
   RivalSubject subject;
   subject.rival = &rival;
   subject.declared = known_model(rival);
+  if (!subject.declared) subject.reported_bits = rival.info().model.grid_bits;
   try {
     subject.inference = adapters::infer_model(rival);
   } catch (const adapters::RivalFailure& failure) {

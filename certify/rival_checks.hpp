@@ -21,9 +21,10 @@ inline constexpr const char* kExactModel = "exact model";
 struct RivalSubject {
   adapters::Rival* rival = nullptr;
   adapters::Inference inference;
-  bool declared = false;      // it says what its model is
-  bool slow = false;          // a program over pipes: fewer cases
-  std::string replay_option;  // how `surefill replay` is told of it
+  bool declared = false;            // it says what its model is
+  std::uint32_t reported_bits = 0;  // of subpixel precision, where it declares no model; 0: none
+  bool slow = false;                // a program over pipes: fewer cases
+  std::string replay_option;        // how `surefill replay` is told of it
 };
 
 // Probes, and sets the model.

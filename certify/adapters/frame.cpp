@@ -99,13 +99,37 @@ bool exceeds(std::size_t value, std::uint32_t limit) {
   return limit != 0 && value > limit;
 }
 
-// A viewport of powers of two that holds the target, so that the way to clip space and back is exact where float32 has
-// the bits.
-Viewport wide_viewport(const Target& target, std::uint32_t depth_range) {
+// One axis of a viewport: where it begins, how far it goes.
+struct Span {
+  float begin, length;
+};
+
+// Centred on the pixel origin and a power of two, so that clip space is pixel space times a power of two: no vertex is
+// rounded on the way, neither here nor there. It holds the target and, as far as the rival's targets go, every vertex
+// in front of the eye, so that none is clipped but for depth. A target of more than half of that begins at the origin.
+Span wide_span(int size, double farthest, std::uint32_t limit) {
+  const auto fitting = static_cast<float>(std::bit_ceil(static_cast<unsigned>(size)));
+  const auto most = static_cast<float>(std::bit_floor(limit == 0 ? static_cast<unsigned>(kMaxTargetSize) : limit));
+  float half = fitting;
+  if (2 * half > most) return {0, fitting};
+  while (half < farthest && 4 * half <= most) half *= 2;
+  return {-half, 2 * half};
+}
+
+Viewport wide_viewport(const Target& target, std::span<const Vertex> vertices, const ClipForm& form) {
+  double x = 0, y = 0;
+  for (const Vertex& v : vertices) {
+    if (!finite(v) || !(v.w > 0)) continue;
+    x = std::max(x, std::abs(static_cast<double>(v.x) / v.w));
+    y = std::max(y, std::abs(static_cast<double>(v.y) / v.w));
+  }
+  const Span across = wide_span(target.width, x, form.max_width), down = wide_span(target.height, y, form.max_height);
   Viewport viewport;
-  viewport.width = static_cast<float>(std::bit_ceil(static_cast<unsigned>(target.width)));
-  viewport.height = static_cast<float>(std::bit_ceil(static_cast<unsigned>(target.height)));
-  if (depth_range == SUREFILL_ADAPTER_MINUS_ONE_TO_ONE) viewport.clip_depth = ClipDepth::minus_one_to_one;
+  viewport.x = across.begin;
+  viewport.y = down.begin;
+  viewport.width = across.length;
+  viewport.height = down.length;
+  if (form.depth_range == SUREFILL_ADAPTER_MINUS_ONE_TO_ONE) viewport.clip_depth = ClipDepth::minus_one_to_one;
   return viewport;
 }
 
@@ -113,8 +137,10 @@ Viewport wide_viewport(const Target& target, std::uint32_t depth_range) {
 ClipVertex clip_of(const Vertex& v, const Viewport& viewport) {
   const double x = v.x, y = v.y, z = v.z, w = v.w, width = viewport.width, height = viewport.height;
   const double depth = viewport.clip_depth == ClipDepth::zero_to_one ? z : 2 * z - w;
-  return {static_cast<float>(2 * x / width - w), static_cast<float>(w - 2 * y / height), static_cast<float>(depth),
-          v.w};
+  // The centre of the viewport: the origin, or that of a viewport which begins there.
+  const double centre_x = viewport.x + width / 2, centre_y = viewport.y + height / 2;
+  return {static_cast<float>(2 * (x - centre_x * w) / width), static_cast<float>(2 * (centre_y * w - y) / height),
+          static_cast<float>(depth), v.w};
 }
 
 template <typename Value>
@@ -156,7 +182,7 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
     if (exceeds(draw.indices.size() / 3, info.max_triangles)) return "draws of this number of triangles";
   }
   if (info.form == SUREFILL_ADAPTER_FORM_CLIP) {
-    const AdapterFrame frame(target, draws, info.model.depth_range);
+    const AdapterFrame frame(target, draws, clip_form(info));
     for (std::size_t d = 0; d < draws.size(); ++d) {
       if (!frame.scene().draws[d].clip_is_exact) return "vertices that have no exact clip form";
     }
@@ -164,15 +190,19 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
   return "";
 }
 
-AdapterFrame::AdapterFrame(const Target& target, std::span<const Draw> draws, std::uint32_t depth_range)
+ClipForm clip_form(const surefill_adapter_info& info) {
+  return {info.model.depth_range, info.max_width, info.max_height};
+}
+
+AdapterFrame::AdapterFrame(const Target& target, std::span<const Draw> draws, const ClipForm& form)
     : storage_(draws.size()), draws_(draws.size()) {
   const std::size_t attributes = target.attributes.size();
-  const Viewport viewport = wide_viewport(target, depth_range);
   for (std::size_t d = 0; d < draws.size(); ++d) {
     const Draw& from = draws[d];
     Storage& storage = storage_[d];
     surefill_adapter_draw& to = draws_[d];
     const std::size_t vertices = from.vertices.size(), triangles = from.indices.size() / 3;
+    const Viewport viewport = wide_viewport(target, from.vertices, form);
     std::vector<ClipVertex> clip(vertices);
     std::vector<Vertex> back(vertices);
     std::transform(from.vertices.begin(), from.vertices.end(), clip.begin(),

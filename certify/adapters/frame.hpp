@@ -23,12 +23,18 @@ std::vector<Draw> under_model(std::span<const Draw> draws, const surefill_adapte
 // is. `draws` are under its model.
 std::string what_is_lacking(const Target& target, std::span<const Draw> draws, const surefill_adapter_info& info);
 
+// What the clip form of a frame depends on.
+struct ClipForm {
+  std::uint32_t depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE;
+  std::uint32_t max_width = 0, max_height = 0;  // of the rival's targets; 0: no limit
+};
+ClipForm clip_form(const surefill_adapter_info& info);
+
 // The frame in the adapter's form. The target's buffers are where the answer goes, directly. Target and draws are
 // valid, and outlive this object.
 class AdapterFrame {
  public:
-  AdapterFrame(const Target& target, std::span<const Draw> draws,
-               std::uint32_t depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE);
+  AdapterFrame(const Target& target, std::span<const Draw> draws, const ClipForm& form = {});
   AdapterFrame(const AdapterFrame&) = delete;
   AdapterFrame& operator=(const AdapterFrame&) = delete;
 

@@ -380,8 +380,9 @@ class OpenGl : public Driver {
     glProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
     if (upper_left_) glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     const auto height = static_cast<GLint>(scene.height), full = static_cast<GLint>(draw.viewport_height);
+    const auto left = static_cast<GLint>(draw.viewport_x), top = static_cast<GLint>(draw.viewport_y);
     // Row 0 is the top one with the origin at the upper left, else the bottom one.
-    glViewport(0, upper_left_ ? 0 : height - full, static_cast<GLsizei>(draw.viewport_width), full);
+    glViewport(left, upper_left_ ? top : height - top - full, static_cast<GLsizei>(draw.viewport_width), full);
     glDepthRange(0, 1);
     glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glDepthMask(GL_TRUE);
@@ -398,9 +399,9 @@ class OpenGl : public Driver {
       glCullFace(draw.cull == SUREFILL_ADAPTER_CULL_BACK ? GL_BACK : GL_FRONT);
     }
     if (draw.has_scissor) {
-      const GLint x0 = std::max(draw.scissor[0], 0), y0 = std::max(draw.scissor[1], 0);
-      const GLint x1 = std::min(draw.scissor[2], static_cast<GLint>(scene.width));
-      const GLint y1 = std::min(draw.scissor[3], height);
+      const auto width = static_cast<GLint>(scene.width);
+      const GLint x0 = std::clamp(draw.scissor[0], 0, width), y0 = std::clamp(draw.scissor[1], 0, height);
+      const GLint x1 = std::clamp(draw.scissor[2], 0, width), y1 = std::clamp(draw.scissor[3], 0, height);
       glEnable(GL_SCISSOR_TEST);
       glScissor(x0, upper_left_ ? y0 : height - y1, std::max(x1 - x0, 0), std::max(y1 - y0, 0));
     }

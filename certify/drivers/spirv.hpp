@@ -18,6 +18,11 @@ namespace spirv {
 #include "certify/drivers/scene_2.inc"
 #include "certify/drivers/scene_3.inc"
 #include "certify/drivers/scene_4.inc"
+#include "certify/drivers/unindexed_0.inc"
+#include "certify/drivers/unindexed_1.inc"
+#include "certify/drivers/unindexed_2.inc"
+#include "certify/drivers/unindexed_3.inc"
+#include "certify/drivers/unindexed_4.inc"
 #include "certify/drivers/visible_0.inc"
 #include "certify/drivers/visible_1.inc"
 #include "certify/drivers/visible_2.inc"
@@ -38,6 +43,8 @@ inline constexpr Spirv kSceneVertexSpirv[] = {spirv::scene_0, spirv::scene_1, sp
                                               spirv::scene_4};
 inline constexpr Spirv kVisibleFragmentSpirv[] = {spirv::visible_0, spirv::visible_1, spirv::visible_2,
                                                   spirv::visible_3, spirv::visible_4};
+inline constexpr Spirv kUnindexedFragmentSpirv[] = {spirv::unindexed_0, spirv::unindexed_1, spirv::unindexed_2,
+                                                    spirv::unindexed_3, spirv::unindexed_4};
 inline constexpr Spirv kCountFragmentSpirv = spirv::count;
 // Of floats, of whole numbers.
 inline constexpr Spirv kSamplesComputeSpirv[] = {spirv::samples_float, spirv::samples_uint};

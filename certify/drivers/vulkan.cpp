@@ -327,10 +327,9 @@ class Vulkan : public Driver {
     auto limits12 = make<VkPhysicalDeviceVulkan12Properties>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_PROPERTIES);
     all.pNext = &limits12;
     vkGetPhysicalDeviceProperties2(physical_, &all);
+    integer_sample_counts_ = limits12.framebufferIntegerColorSampleCounts & limits.sampledImageIntegerSampleCounts;
     const VkSampleCountFlags counts = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts &
-                                      limits12.framebufferIntegerColorSampleCounts &
-                                      limits.sampledImageColorSampleCounts & limits.sampledImageIntegerSampleCounts &
-                                      limits.sampledImageDepthSampleCounts;
+                                      limits.sampledImageColorSampleCounts & limits.sampledImageDepthSampleCounts;
     for (std::uint32_t samples = 2; samples <= 16; samples *= 2) {
       if (counts & samples) sample_counts_.push_back(samples);
     }
@@ -438,7 +437,8 @@ class Vulkan : public Driver {
       made.images.push_back(make_image(format, scene.width, scene.height, made.samples));
     };
     try {
-      add(visible ? kIndexFormat : kCountFormat);
+      if (!visible) add(kCountFormat);
+      if (visible && shows_index(samples)) add(kIndexFormat);
       if (visible) {
         for (std::uint32_t n = 0; n < 1 + attributes; ++n) add(kValueFormat);
         add(kDepthFormat);
@@ -449,6 +449,10 @@ class Vulkan : public Driver {
     }
     return made;
   }
+
+  // Some drivers have no multisampled images of whole numbers to draw to. Then the identifier, plus one, is the fourth
+  // component of the barycentrics.
+  bool shows_index(std::uint32_t samples) const { return samples == 1 || (integer_sample_counts_ & samples) != 0; }
 
   // --- pipelines ---
 
@@ -474,7 +478,9 @@ class Vulkan : public Driver {
     VkPipeline& pipeline = pipelines_[{visible ? 1u : 0u, attributes, stride, samples, clamp ? 1u : 0u}];
     if (pipeline != VK_NULL_HANDLE) return pipeline;
     const VkShaderModule vertex = module(kSceneVertexSpirv[attributes]);
-    const VkShaderModule fragment = module(visible ? kVisibleFragmentSpirv[attributes] : kCountFragmentSpirv);
+    const VkShaderModule fragment = module(!visible               ? kCountFragmentSpirv
+                                           : shows_index(samples) ? kVisibleFragmentSpirv[attributes]
+                                                                  : kUnindexedFragmentSpirv[attributes]);
     const VkPipelineShaderStageCreateInfo stages[] = {stage(VK_SHADER_STAGE_VERTEX_BIT, vertex),
                                                       stage(VK_SHADER_STAGE_FRAGMENT_BIT, fragment)};
     const VkVertexInputBindingDescription binding{0, stride * 4, VK_VERTEX_INPUT_RATE_VERTEX};
@@ -509,7 +515,10 @@ class Vulkan : public Driver {
     target.blendEnable = !visible && fault_ != "blend" ? VK_TRUE : VK_FALSE;
     target.srcColorBlendFactor = target.dstColorBlendFactor = VK_BLEND_FACTOR_ONE;
     target.srcAlphaBlendFactor = target.dstAlphaBlendFactor = VK_BLEND_FACTOR_ONE;
-    const std::vector<VkPipelineColorBlendAttachmentState> targets(visible ? 2 + attributes : 1, target);
+    std::vector<VkFormat> formats(1, visible ? kIndexFormat : kCountFormat);
+    if (visible) formats.resize(2 + attributes, kValueFormat);
+    if (visible && !shows_index(samples)) formats.erase(formats.begin());
+    const std::vector<VkPipelineColorBlendAttachmentState> targets(formats.size(), target);
     auto blend = make<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
     blend.attachmentCount = static_cast<std::uint32_t>(targets.size());
     blend.pAttachments = targets.data();
@@ -520,8 +529,6 @@ class Vulkan : public Driver {
     auto dynamic = make<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
     dynamic.dynamicStateCount = static_cast<std::uint32_t>(std::size(states));
     dynamic.pDynamicStates = states;
-    std::vector<VkFormat> formats(targets.size(), kValueFormat);
-    formats[0] = visible ? kIndexFormat : kCountFormat;
     auto rendering = make<VkPipelineRenderingCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RENDERING_CREATE_INFO);
     rendering.colorAttachmentCount = static_cast<std::uint32_t>(formats.size());
     rendering.pColorAttachmentFormats = formats.data();
@@ -592,12 +599,13 @@ class Vulkan : public Driver {
 
   void set_state(const surefill_adapter_scene& scene, const surefill_adapter_draw& draw, bool visible) {
     // Clip y is up, as S3 has it: the viewport is turned over.
-    VkViewport viewport{0, draw.viewport_height, draw.viewport_width, -draw.viewport_height, 0, 1};
+    VkViewport viewport{
+        draw.viewport_x, draw.viewport_y + draw.viewport_height, draw.viewport_width, -draw.viewport_height, 0, 1};
     VkRect2D scissor{{0, 0}, {scene.width, scene.height}};
     if (draw.has_scissor) {
-      const std::int32_t x0 = std::max(draw.scissor[0], 0), y0 = std::max(draw.scissor[1], 0);
-      const std::int32_t x1 = std::min(draw.scissor[2], static_cast<std::int32_t>(scene.width));
-      const std::int32_t y1 = std::min(draw.scissor[3], static_cast<std::int32_t>(scene.height));
+      const auto width = static_cast<std::int32_t>(scene.width), height = static_cast<std::int32_t>(scene.height);
+      const std::int32_t x0 = std::clamp(draw.scissor[0], 0, width), y0 = std::clamp(draw.scissor[1], 0, height);
+      const std::int32_t x1 = std::clamp(draw.scissor[2], 0, width), y1 = std::clamp(draw.scissor[3], 0, height);
       scissor = {{x0, y0},
                  {static_cast<std::uint32_t>(std::max(x1 - x0, 0)), static_cast<std::uint32_t>(std::max(y1 - y0, 0))}};
     }
@@ -607,7 +615,7 @@ class Vulkan : public Driver {
     bool clockwise = draw.front_face == SUREFILL_ADAPTER_CLOCKWISE, depth_test = visible;
     if (fault_ == "scissor") scissor.extent.width = scene.width - 1;
     if (fault_ == "invalid") scissor.offset.x = -1;
-    if (fault_ == "viewport") viewport.x = 1;
+    if (fault_ == "viewport") viewport.x += 1;
     if (fault_ == "cull") cull = VK_CULL_MODE_BACK_BIT;
     if (fault_ == "depth-range") viewport.maxDepth = 0.5f;
     if (fault_ == "front-face") clockwise = !clockwise;
@@ -747,7 +755,24 @@ class Vulkan : public Driver {
       const auto* first = static_cast<const std::uint32_t*>(words_.data) + offsets[n] / 4;
       planes.emplace_back(first, first + samples * shown.images[n].components());
     }
+    if (visible && !shows_index(scene.samples)) planes.insert(planes.begin(), index_of(scene, planes[0]));
     return planes;
+  }
+
+  static std::vector<std::uint32_t> index_of(const surefill_adapter_scene& scene,
+                                             const std::vector<std::uint32_t>& barycentrics) {
+    constexpr std::uint32_t kExact = 1u << 24;
+    for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
+      const surefill_adapter_draw& draw = scene.draws[d];
+      for (std::uint32_t t = 0; t < draw.triangle_count; ++t) {
+        if (draw.identifiers[t] >= kExact) throw NotJudged("identifiers of 2^24 and more with several samples a pixel");
+      }
+    }
+    std::vector<std::uint32_t> index(barycentrics.size() / 4);
+    for (std::size_t s = 0; s < index.size(); ++s) {
+      index[s] = static_cast<std::uint32_t>(std::bit_cast<float>(barycentrics[4 * s + 3])) - 1;  // none is 0xFFFFFFFF
+    }
+    return index;
   }
 
   static constexpr std::size_t kMostFramebuffers = 32;
@@ -773,6 +798,7 @@ class Vulkan : public Driver {
   std::map<std::array<std::uint32_t, 4>, Framebuffer> framebuffers_;
   Buffer vertices_, words_;
   std::vector<std::uint32_t> sample_counts_;
+  VkSampleCountFlags integer_sample_counts_ = 0;
   surefill_adapter_info info_{};
 };
 

@@ -10,18 +10,27 @@ uniform ivec4 interpolation;
 
 PLACE(0) flat in uint triangle;
 PLACE(1) in vec3 weights;
+#ifdef WITHOUT_INDEX
+#define WEIGHTS 0
+#define VALUES 1
+#else
+#define WEIGHTS 1
+#define VALUES 2
 layout(location = 0) out uint index;
-layout(location = 1) out vec4 barycentrics;
+#endif
+layout(location = WEIGHTS) out vec4 barycentrics;  // and the identifier, plus one
 #if ATTRIBUTES > 0
 PLACE(2) smooth in vec4 perspective[ATTRIBUTES];
 PLACE(6) noperspective in vec4 affine[ATTRIBUTES];
 PLACE(10) flat in vec4 constant[ATTRIBUTES];
-layout(location = 2) out vec4 value[ATTRIBUTES];
+layout(location = VALUES) out vec4 value[ATTRIBUTES];
 #endif
 
 void main() {
+#ifndef WITHOUT_INDEX
   index = triangle;
-  barycentrics = vec4(weights, 0.0);
+#endif
+  barycentrics = vec4(weights, float(triangle) + 1.0);
 #if ATTRIBUTES > 0
   for (int k = 0; k < ATTRIBUTES; ++k) {
     value[k] = interpolation[k] == 0 ? perspective[k] : interpolation[k] == 1 ? affine[k] : constant[k];

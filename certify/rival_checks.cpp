@@ -7,6 +7,7 @@
 #include <bit>
 #include <cmath>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include "certify/adapters/frame.hpp"
@@ -225,6 +226,21 @@ Scene scene_for(const Rival& rival, std::uint64_t number, std::uint64_t seed) {
   return scene;
 }
 
+// One triangle without state, of a kind that programs draw.
+Scene ordinary_scene(const Rival& rival, std::uint64_t number, std::uint64_t seed) {
+  properties::SceneLimits limits;
+  limits.max_triangles = 1;
+  limits.state = false;
+  limits.attributes = (rival.info().outputs & SUREFILL_ADAPTER_ATTRIBUTES) != 0;
+  const auto categories = properties::categories();
+  const std::string_view wanted = number % 2 == 0 ? "ordinary" : "perspective";
+  const auto kind = std::find_if(categories.begin(), categories.end(),
+                                 [wanted](const properties::Category& category) { return category.name == wanted; });
+  Scene scene = properties::random_scene(*kind, seed, limits);
+  for (corpus::SceneDraw& draw : scene.draws) make_ordinary(draw);
+  return scene;
+}
+
 class List {
  public:
   List(const Settings& settings, const RivalSubject& subject) : settings_(settings), subject_(subject) {}
@@ -314,6 +330,13 @@ class List {
                false);
     if (exact_profile(rival)) return;
     add_values("values-clipped", "the same with vertices behind the eye or beyond the guard band", true);
+    const std::string name = "values-ordinary";
+    add_values(name, "the same on random triangles of the screen's size, each alone and in front of the eye", false);
+    checks_.back().run = [seed = settings_.seed, &rival, name](std::uint64_t number) {
+      const Scene scene = ordinary_scene(rival, number, case_seed(seed, name, number));
+      if (!known_model(rival) || is_open(scene)) return skipped_case();
+      return compare_rival(scene, rival, {false, true, false});
+    };
   }
 
   // Exact profiles have one check of values, others two: apart from those of triangles that a clipper cuts.

@@ -26,9 +26,6 @@ namespace surefill::properties {
 // Random scenes a property: SUREFILL_TEXTBOOK_SCENES, or so many.
 inline std::uint64_t textbook_scenes(std::uint64_t usual) {
   const char* asked = std::getenv("SUREFILL_TEXTBOOK_SCENES");
-#ifdef SUREFILL_CASES_SHARE
-  usual /= SUREFILL_CASES_SHARE;
-#endif
   return asked != nullptr ? std::strtoull(asked, nullptr, 10) : usual;
 }
 

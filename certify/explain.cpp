@@ -334,7 +334,7 @@ std::string count_table() {
     void tile(const PixelBox&, TileClass) {}
   };
   const Lattice lattice{1920, 1080};
-  std::string table = fmt::format("{:<20}{:<24}{:>18}{:>14}{:>16}\n", "triangles of", "traversal", "visited/covered",
+  std::string table = fmt::format("{:<20}{:<18}{:>18}{:>16}{:>16}\n", "triangles of", "traversal", "visited/covered",
                                   "tiles/triangle", "edges/covered");
   for (const Kind& kind : kKinds) {
     for (const Traversal traversal : kTraversals) {
@@ -376,7 +376,7 @@ std::string count_table() {
           sum.edge_evaluations += asked.counts().edge_evaluations;
         }
         const auto covered = static_cast<double>(std::max<std::uint64_t>(1, sum.samples_covered));
-        table += fmt::format("{:<20}{:<24}{:>18.2f}{:>14.1f}{:>16.2f}\n", kind.name,
+        table += fmt::format("{:<20}{:<18}{:>18.2f}{:>16.1f}{:>16.2f}\n", kind.name,
                              by_size ? fmt::format("{} {}", name_of(traversal), size) : std::string(name_of(traversal)),
                              static_cast<double>(sum.samples_visited) / covered,
                              static_cast<double>(sum.tiles_tested) / triangles,

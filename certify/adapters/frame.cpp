@@ -207,9 +207,12 @@ AdapterFrame::AdapterFrame(const Target& target, std::span<const Draw> draws, co
     std::vector<Vertex> back(vertices);
     std::transform(from.vertices.begin(), from.vertices.end(), clip.begin(),
                    [&viewport](const Vertex& v) { return clip_of(v, viewport); });
-    to.clip_is_exact =
-        to_pixel(viewport, clip, back) == Status::ok &&
-        (vertices == 0 || std::memcmp(back.data(), from.vertices.data(), vertices * sizeof(Vertex)) == 0);
+    // What is not finite has no exact form; as near as it comes, it is not finite in clip space either.
+    to.clip_is_exact = to_pixel(viewport, clip, back) == Status::ok;
+    for (std::size_t v = 0; v < vertices && to.clip_is_exact; ++v) {
+      const bool same = std::memcmp(&back[v], &from.vertices[v], sizeof(Vertex)) == 0;
+      to.clip_is_exact = same || (!finite(from.vertices[v]) && !finite(back[v]));
+    }
     for (std::size_t v = 0; v < vertices; ++v) {
       const Vertex& p = from.vertices[v];
       storage.pixel.insert(storage.pixel.end(), {p.x, p.y, p.z, p.w});

@@ -134,15 +134,68 @@ namespace {
 
 struct Instance {
   std::unique_ptr<Driver> driver;
+  bool tight_viewport = false;
   std::string error;
 };
 
 std::string open_error;
 
+// A scene under a viewport that begins at the pixel origin and is the next power of two to the target, as programs have
+// it: vertices beyond are clipped at its border.
+class TightScene {
+ public:
+  explicit TightScene(const surefill_adapter_scene& scene)
+      : draws_(scene.draws, scene.draws + scene.draw_count), clip_(scene.draw_count), scene_(scene) {
+    const auto width = static_cast<float>(std::bit_ceil(scene.width));
+    const auto height = static_cast<float>(std::bit_ceil(scene.height));
+    for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
+      surefill_adapter_draw& draw = draws_[d];
+      std::vector<float>& clip = clip_[d];
+      clip.assign(draw.clip, draw.clip + 4 * std::size_t{draw.vertex_count});
+      for (std::size_t v = 0; v < draw.vertex_count; ++v) {
+        const double w = draw.pixel[4 * v + 3];
+        clip[4 * v] = exactly(2.0 * draw.pixel[4 * v] / width, -w);
+        clip[4 * v + 1] = exactly(-2.0 * draw.pixel[4 * v + 1] / height, w);
+      }
+      draw.clip = clip.data();
+      draw.viewport_x = draw.viewport_y = 0;
+      draw.viewport_width = width;
+      draw.viewport_height = height;
+    }
+    scene_.draws = draws_.data();
+  }
+  TightScene(const TightScene&) = delete;
+  TightScene& operator=(const TightScene&) = delete;
+  const surefill_adapter_scene& scene() const { return scene_; }
+
+ private:
+  // a + b, where it is a float32. The sum in double of two float32, scaled by powers of two, is exact if it can be
+  // taken apart again.
+  static float exactly(double a, double b) {
+    const double sum = a + b;
+    const auto result = static_cast<float>(sum);
+    if (sum - a != b || sum - b != a || result != sum) {
+      throw NotJudged("vertices that have no exact clip form under a viewport of the target's size");
+    }
+    return result;
+  }
+
+  std::vector<surefill_adapter_draw> draws_;
+  std::vector<std::vector<float>> clip_;
+  surefill_adapter_scene scene_;
+};
+
 int open(const char* arguments, surefill_adapter_info* info, void** instance) {
   try {
     auto opened = std::make_unique<Instance>();
-    opened->driver = open_driver(arguments);
+    Arguments given = parse_arguments(arguments);
+    const std::string viewport = argument(given, "viewport");
+    if (!viewport.empty() && viewport != "target") {
+      throw NotJudged("argument viewport=" + viewport + ": there is viewport=target");
+    }
+    opened->tight_viewport = !viewport.empty();
+    given.erase("viewport");
+    opened->driver = open_driver(given);
     const std::string problem = self_check(*opened->driver);
     if (!problem.empty()) throw NotJudged("self-check of the adapter: " + problem);
     *info = opened->driver->info();
@@ -166,7 +219,11 @@ int draw(void* instance, const surefill_adapter_scene* scene, const surefill_ada
     if (asks_for_visible(*image) && !depths_within_buffer(*scene)) {
       throw NotJudged("depths outside 0 to 1, which a depth buffer does not hold");
     }
-    self.driver->draw(*scene, *image);
+    if (self.tight_viewport) {
+      self.driver->draw(TightScene(*scene).scene(), *image);
+    } else {
+      self.driver->draw(*scene, *image);
+    }
     return SUREFILL_ADAPTER_OK;
   } catch (const NotJudged& reason) {
     self.error = reason.what();

@@ -88,7 +88,7 @@ class Driver {
 std::string self_check(Driver& driver);
 
 // Of each plugin.
-std::unique_ptr<Driver> open_driver(const std::string& arguments);
+std::unique_ptr<Driver> open_driver(const Arguments& arguments);
 void set_text(char (&place)[64], const std::string& text);
 
 }  // namespace surefill::drivers

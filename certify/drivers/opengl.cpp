@@ -4,6 +4,7 @@
 //   driver=NAME     Mesa's software drivers: llvmpipe, softpipe (the same as the environment variable GALLIUM_DRIVER)
 //   device=NUMBER   an EGL device instead of Mesa's surfaceless platform, such as the first GPU: device=0
 //   clip=classic    origin at the lower left and clip depth -1 to 1; otherwise glClipControl where there is one
+//   viewport=target  the viewport of programs, at whose border drivers clip; otherwise it holds all vertices
 //   claim=non-finite  NaN and infinities are drawn and judged, which no standard promises
 //   fault=STATE     leaves a state wrong on purpose, for tests of the self-check: scissor, viewport, multisample,
 //                   cull, blend, depth-range, polygon-offset, color-mask, front-face, depth-test
@@ -603,8 +604,7 @@ class OpenGl : public Driver {
 
 }  // namespace
 
-std::unique_ptr<Driver> open_driver(const std::string& text) {
-  const Arguments arguments = parse_arguments(text);
+std::unique_ptr<Driver> open_driver(const Arguments& arguments) {
   check_keys(arguments, {"driver", "device", "clip", "claim", "fault"});
   return std::make_unique<OpenGl>(arguments);
 }

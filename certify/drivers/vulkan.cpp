@@ -4,6 +4,7 @@
 //   device=NAME     the first device with this text in its name (the same as the environment variable
 //                   SUREFILL_VULKAN_DEVICE); without it, the first device
 //   validation      the Khronos validation layer watches; what it says is a failure of the scene
+//   viewport=target  the viewport of programs, at whose border drivers clip; otherwise it holds all vertices
 //   claim=non-finite  NaN and infinities are drawn and judged, which no standard promises
 //   fault=STATE     leaves a state wrong on purpose, for tests of the self-check: scissor, viewport, multisample,
 //                   cull, blend, depth-range, front-face, depth-test; and invalid, for tests of the validation
@@ -804,11 +805,10 @@ class Vulkan : public Driver {
 
 }  // namespace
 
-std::unique_ptr<Driver> open_driver(const std::string& text) {
-  const Arguments arguments = parse_arguments(text);
+std::unique_ptr<Driver> open_driver(const Arguments& arguments) {
   check_keys(arguments, {"device", "validation", "claim", "fault"});
   const std::vector<std::string> faults{"",      "scissor",     "viewport",   "multisample", "cull",
-                                        "blend", "depth-range", "front-face", "depth-test"};
+                                        "blend", "depth-range", "front-face", "depth-test",  "invalid"};
   const std::string fault = argument(arguments, "fault");
   if (std::find(faults.begin(), faults.end(), fault) == faults.end()) {
     throw NotJudged("argument fault=" + fault + ": no such fault");

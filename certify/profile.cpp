@@ -148,11 +148,11 @@ bool note(Deviation& deviation, float expected, float actual, Range range, doubl
   if (std::isnan(actual)) return true;
   const double rounding = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126;
   const double error = std::abs(static_cast<double>(actual) - expected);
-  const double ulp =
-      std::ldexp(1.0, std::ilogb(std::max({largest, std::abs(static_cast<double>(expected)), 0x1p-126})) - 23);
-  deviation.ulp = std::max(deviation.ulp, error / ulp);
   const double granted = std::max({range.high - expected, expected - range.low, 0.0}) + rounding;
   if (!std::isfinite(granted)) return false;
+  // Numbers below 2^-32 are not judged.
+  const double scale = std::max({largest, std::abs(static_cast<double>(expected)), 0x1p-32});
+  deviation.ulp = std::max(deviation.ulp, error / std::ldexp(1.0, std::ilogb(scale) - 23));
   deviation.granted = std::max(deviation.granted, error / granted);
   return error > granted;
 }

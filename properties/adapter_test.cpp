@@ -3,7 +3,6 @@
 // certify on rasterizers of others: right ones pass, each wrong one is found, and no run is ended by what a rival does.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
@@ -12,33 +11,21 @@
 #include <string>
 
 #include "corpus/scene.hpp"
+#include "properties/test_folder.hpp"
 
 namespace surefill {
 namespace {
 
 namespace fs = std::filesystem;
 
-class Adapter : public ::testing::Test {
+class Adapter : public InFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "surefill-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  static std::string read(const fs::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return std::move(text).str();
-  }
-
   // The exit status; what is printed is in `out`.
   int surefill(const std::string& arguments) {
     const std::string line =
         "cd '" + folder_.string() + "' && " SUREFILL_COMMAND " " + arguments + " >out.txt 2>err.txt";
     const int status = std::system(line.c_str());
-    out = read(folder_ / "out.txt") + read(folder_ / "err.txt");
+    out = contents(folder_ / "out.txt") + contents(folder_ / "err.txt");
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   }
   int certify(const std::string& arguments) { return surefill("certify --jobs 1 " + arguments); }
@@ -50,7 +37,7 @@ class Adapter : public ::testing::Test {
 
   // The Python rival with one text in it replaced.
   std::string python_with(const std::string& text, const std::string& fault) {
-    std::string program = read(SUREFILL_PYTHON_RIVAL);
+    std::string program = contents(SUREFILL_PYTHON_RIVAL);
     const std::size_t at = program.find(text);
     EXPECT_NE(at, std::string::npos) << text;
     if (at != std::string::npos) program.replace(at, text.size(), fault);
@@ -66,7 +53,6 @@ class Adapter : public ::testing::Test {
     return triangles;
   }
 
-  fs::path folder_;
   std::string out;
 };
 
@@ -133,8 +119,8 @@ TEST_F(Adapter, ShardsMergeAndOthersDoNot) {
   EXPECT_EQ(certify("--shard 2/2 --seed 2 --json c.json " + rival), 1) << out;
   EXPECT_EQ(surefill("merge a.json b.json --html m.html --junit m.xml"), 1) << out;
   EXPECT_TRUE(says("sampled 300 scenes")) << out;
-  EXPECT_NE(read(folder_ / "m.html").find("<svg"), std::string::npos);
-  EXPECT_NE(read(folder_ / "m.xml").find("<failure"), std::string::npos);
+  EXPECT_NE(contents(folder_ / "m.html").find("<svg"), std::string::npos);
+  EXPECT_NE(contents(folder_ / "m.xml").find("<failure"), std::string::npos);
   EXPECT_EQ(surefill("merge a.json"), 2);
   EXPECT_TRUE(says("shard 2 of 2 is missing")) << out;
   EXPECT_EQ(surefill("merge a.json a.json"), 2);
@@ -157,7 +143,7 @@ TEST_F(Adapter, AnInterruptedRunGoesOn) {
   EXPECT_EQ(surefill(run + "whole.json"), 0) << out;
   EXPECT_EQ(surefill("certify --jobs 1 --level standard --only random-ordinary --json once.json"), 0) << out;
   const auto sums = [this](const char* file) {
-    std::istringstream lines(read(folder_ / file));
+    std::istringstream lines(contents(folder_ / file));
     std::string kept;
     for (std::string line; std::getline(lines, line);) {
       if (line.find("\"samples\"") != std::string::npos || line.find("\"done\"") != std::string::npos) kept += line;

@@ -58,11 +58,7 @@ Verdict decide_tiles(const corpus::Scene& scene, const Renderer& renderer) {
       for (corpus::SceneDraw& draw : part.draws) draw.scissor = draw.scissor ? common(*draw.scissor, tile) : tile;
       const auto image = check.draw(part, outputs);
       if (!image) return check.verdict();
-      Correspondence inside, outside;
-      inside.where = [&](int x, int y) { return x >= tile.x0 && x < tile.x1 && y >= tile.y0 && y < tile.y1; };
-      outside.where = [&](int x, int y) { return !inside.where(x, y); };
-      check.expect_same("drawn by tiles", scene, *whole, *image, inside);
-      check.expect_same("outside of the tile", scene, *empty, *image, outside);
+      check.expect_parts("the tile", scene, tile, *whole, *empty, *image);
     }
   return check.verdict();
 }

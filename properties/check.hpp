@@ -65,6 +65,16 @@ class Check {
   void expect_same(std::string_view what, const corpus::Scene& scene, const corpus::Image& expected,
                    const corpus::Image& actual, const Correspondence& correspondence = {});
 
+  // The image equals `inside` in the rectangle and `outside` everywhere else. `what` names the rectangle.
+  void expect_parts(std::string_view what, const corpus::Scene& scene, const Scissor& rectangle,
+                    const corpus::Image& inside, const corpus::Image& outside, const corpus::Image& actual);
+
+  // Counts of the scene's front faces alone and of its back faces alone; none if a call fails.
+  struct Facings {
+    corpus::Image front, back;
+  };
+  std::optional<Facings> draw_facings(const corpus::Scene& scene);
+
   Verdict verdict() const { return verdict_; }
 
  private:

@@ -3,17 +3,16 @@
 // The built command as a process: what it prints and returns, and that bad input leaves no output behind.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "corpus/scene.hpp"
+#include "properties/test_folder.hpp"
 
 namespace surefill {
 namespace {
@@ -25,25 +24,10 @@ struct Outcome {
   std::string out, err;
 };
 
-class Command : public ::testing::Test {
+class Command : public InFolder {
  protected:
-  void SetUp() override {
-    std::string name = (fs::temp_directory_path() / "surefill-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
-  }
-  void TearDown() override { fs::remove_all(folder_); }
-
-  std::string path(const std::string& name) const { return (folder_ / name).string(); }
-
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(path(name), std::ios::binary) << text;
-  }
-
-  static std::string read(const fs::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file, std::ios::binary).rdbuf();
-    return std::move(text).str();
   }
 
   // Runs the command in the folder, with arguments as a shell takes them.
@@ -55,8 +39,8 @@ class Command : public ::testing::Test {
     const int status = std::system(line.c_str());
     Outcome outcome;
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-    outcome.out = read(out);
-    outcome.err = read(err);
+    outcome.out = contents(out);
+    outcome.err = contents(err);
     fs::remove(out);
     fs::remove(err);
     return outcome;
@@ -80,8 +64,6 @@ class Command : public ::testing::Test {
     EXPECT_NE(outcome.err.find(cause), std::string::npos) << arguments << "\n" << outcome.err;
     EXPECT_EQ(files(), before) << arguments;
   }
-
-  fs::path folder_;
 };
 
 constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -173,9 +155,9 @@ TEST_F(Command, DrawsPictures) {
           run("render a.obj --size 40x30 --show " + std::string(show) + " --renderer " + renderer + " -o " + name);
       EXPECT_EQ(outcome.status, 0) << outcome.err;
       EXPECT_EQ(outcome.out + outcome.err, "");
-      EXPECT_TRUE(is_png(read(path(name))));
+      EXPECT_TRUE(is_png(contents(path(name))));
     }
-    EXPECT_EQ(read(path(std::string(show) + "-engine.png")), read(path(std::string(show) + "-oracle.png")));
+    EXPECT_EQ(contents(path(std::string(show) + "-engine.png")), contents(path(std::string(show) + "-oracle.png")));
   }
   EXPECT_EQ(run("render a.obj --size 40x30 --eye 0.2,0.2,0.01 --target 0.2,0.3,-1 --fov 120 -o inside.png").status, 0);
   EXPECT_EQ(files().size(), 12u);
@@ -188,7 +170,7 @@ TEST_F(Command, WarnsOfVerticesThatAreNotFinite) {
   EXPECT_EQ(outcome.status, 0);
   EXPECT_EQ(outcome.err, "surefill: warning: nan.obj: 2 of 3 triangles have a NaN or an infinity and are dropped\n");
   EXPECT_EQ(run("render without.obj -o without.png --size 32x32 --show normals").status, 0);
-  EXPECT_EQ(read(path("nan.png")), read(path("without.png")));
+  EXPECT_EQ(contents(path("nan.png")), contents(path("without.png")));
 }
 
 TEST_F(Command, Certifies) {
@@ -196,7 +178,7 @@ TEST_F(Command, Certifies) {
   EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.err, "");  // no progress where there is no terminal
   EXPECT_NE(outcome.out.find("CERTIFIED: 3 checks"), std::string::npos) << outcome.out;
-  EXPECT_NE(read(path("c.json")).find("\"verdict\": \"certified\""), std::string::npos);
+  EXPECT_NE(contents(path("c.json")).find("\"verdict\": \"certified\""), std::string::npos);
   EXPECT_EQ(files(), std::vector<std::string>{"c.json"});
   const Outcome list = run("certify --list");
   EXPECT_EQ(list.status, 0);

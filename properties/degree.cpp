@@ -155,20 +155,17 @@ corpus::Scene make_spot(std::uint64_t seed) {
 
 Verdict decide(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
-  corpus::Scene front = scene, back = scene;
-  front.draws[0].cull = Cull::back;
-  back.draws[0].cull = Cull::front;
-  const auto fronts = check.draw(front, kCountOnly), backs = check.draw(back, kCountOnly);
-  if (!fronts || !backs) return check.verdict();
+  const auto image = check.draw_facings(scene);
+  if (!image) return check.verdict();
   const int expected = winding_number(scene.draws[0]);
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
-      const std::size_t e = element(*fronts, x, y);
-      const auto degree = static_cast<int>(fronts->count[e]) - static_cast<int>(backs->count[e]);
+      const std::size_t e = element(image->front, x, y);
+      const auto degree = static_cast<int>(image->front.count[e]) - static_cast<int>(image->back.count[e]);
       if (degree != expected)
         check.differs("front minus back of a closed mesh", x, y, std::to_string(expected), std::to_string(degree));
     }
-  check.looked_at(fronts->count.size());
+  check.looked_at(image->front.count.size());
   return check.verdict();
 }
 

@@ -36,30 +36,22 @@ Verdict decide_scissor(const corpus::Scene& scene, const Renderer& renderer) {
   const corpus::Outputs outputs = outputs_of(scene);
   const auto all = check.draw(whole, outputs), some = check.draw(cut, outputs), none = check.draw(empty, outputs);
   if (!all || !some || !none) return check.verdict();
-  Correspondence inside, outside;
-  inside.where = [&](int x, int y) { return x >= scissor.x0 && x < scissor.x1 && y >= scissor.y0 && y < scissor.y1; };
-  outside.where = [&](int x, int y) { return !inside.where(x, y); };
-  check.expect_same("inside the scissor", scene, *all, *some, inside);
-  check.expect_same("outside of the scissor", scene, *none, *some, outside);
+  check.expect_parts("the scissor", scene, scissor, *all, *none, *some);
   return check.verdict();
 }
 
 // F2, M2.
 Verdict decide_facing(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
-  corpus::Scene both = scene, front = scene, back = scene;
-  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
-    both.draws[d].cull = Cull::none;
-    front.draws[d].cull = Cull::back;
-    back.draws[d].cull = Cull::front;
-  }
-  const auto all = check.draw(both, kCountOnly), fronts = check.draw(front, kCountOnly),
-             backs = check.draw(back, kCountOnly);
-  if (!all || !fronts || !backs) return check.verdict();
+  corpus::Scene both = scene;
+  for (corpus::SceneDraw& draw : both.draws) draw.cull = Cull::none;
+  const auto all = check.draw(both, kCountOnly);
+  const auto one = check.draw_facings(scene);
+  if (!all || !one) return check.verdict();
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
       const std::size_t e = element(*all, x, y);
-      check.expect_count("count of front plus back", x, y, all->count[e], fronts->count[e] + backs->count[e]);
+      check.expect_count("count of front plus back", x, y, all->count[e], one->front.count[e] + one->back.count[e]);
     }
   check.looked_at(all->count.size());
   return check.verdict();

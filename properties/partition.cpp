@@ -326,17 +326,15 @@ corpus::Scene make_deformed(std::uint64_t seed) {
 
 Verdict decide_signed(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
-  corpus::Scene front = scene, back = scene;
-  front.draws[0].cull = Cull::back;
-  back.draws[0].cull = Cull::front;
-  const auto fronts = check.draw(front, kCountOnly), backs = check.draw(back, kCountOnly);
-  if (!fronts || !backs) return check.verdict();
+  const auto image = check.draw_facings(scene);
+  if (!image) return check.verdict();
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
-      const std::size_t e = element(*fronts, x, y);
-      check.expect_count("front of a snapped tiling, against 1 + back,", x, y, 1 + backs->count[e], fronts->count[e]);
+      const std::size_t e = element(image->front, x, y);
+      check.expect_count("front of a snapped tiling, against 1 + back,", x, y, 1 + image->back.count[e],
+                         image->front.count[e]);
     }
-  check.looked_at(fronts->count.size());
+  check.looked_at(image->front.count.size());
   return check.verdict();
 }
 

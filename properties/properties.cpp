@@ -98,6 +98,27 @@ void Check::expect_same(std::string_view what, const corpus::Scene& scene, const
     }
 }
 
+void Check::expect_parts(std::string_view what, const corpus::Scene& scene, const Scissor& rectangle,
+                         const corpus::Image& inside, const corpus::Image& outside, const corpus::Image& actual) {
+  Correspondence in, out;
+  in.where = [&](int x, int y) {
+    return x >= rectangle.x0 && x < rectangle.x1 && y >= rectangle.y0 && y < rectangle.y1;
+  };
+  out.where = [&](int x, int y) { return !in.where(x, y); };
+  const std::string name(what);
+  expect_same("inside " + name, scene, inside, actual, in);
+  expect_same("outside of " + name, scene, outside, actual, out);
+}
+
+std::optional<Check::Facings> Check::draw_facings(const corpus::Scene& scene) {
+  corpus::Scene front = scene, back = scene;
+  for (corpus::SceneDraw& draw : front.draws) draw.cull = Cull::back;
+  for (corpus::SceneDraw& draw : back.draws) draw.cull = Cull::front;
+  auto fronts = draw(front, kCountOnly), backs = draw(back, kCountOnly);
+  if (!fronts || !backs) return std::nullopt;
+  return Facings{std::move(*fronts), std::move(*backs)};
+}
+
 std::string text(float value) {
   char buffer[64];
   std::snprintf(buffer, sizeof buffer, "%a (%.9g)", static_cast<double>(value), static_cast<double>(value));

@@ -14,17 +14,14 @@
 #include <string>
 #include <vector>
 
+#include "properties/test_folder.hpp"
+
 namespace surefill::properties {
 namespace {
 
 const std::filesystem::path kRoot = std::filesystem::path(SUREFILL_CORPUS).parent_path();
 
-std::string contents(const std::filesystem::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+class TextbookDocs : public InFolder {};
 
 std::vector<std::string> documented_commands() {
   std::ifstream page(kRoot / "docs/textbook.md");
@@ -36,43 +33,38 @@ std::vector<std::string> documented_commands() {
   return commands;
 }
 
-TEST(TextbookDocs, PicturesAreWhatTheCommandsMake) {
-  const std::filesystem::path made = std::filesystem::path(testing::TempDir()) / "surefill_textbook.svg";
+TEST_F(TextbookDocs, PicturesAreWhatTheCommandsMake) {
+  const std::string made = path("made.svg");
   const std::string page = contents(kRoot / "docs/textbook.md");
   std::size_t pictures = 0;
   for (const std::string& command : documented_commands()) {
     const std::size_t output = command.find(" -o ");
     const std::string picture = command.substr(output + 4);
-    const std::string call = "cd '" + kRoot.string() + "' && '" SUREFILL_COMMAND "'" + command.substr(8, output - 8) +
-                             " -o '" + made.string() + "'";
+    const std::string call =
+        "cd '" + kRoot.string() + "' && '" SUREFILL_COMMAND "'" + command.substr(8, output - 8) + " -o '" + made + "'";
     ASSERT_EQ(std::system(call.c_str()), 0) << command;
     EXPECT_TRUE(contents(made) == contents(kRoot / picture)) << picture << " is not what this makes: " << command;
     EXPECT_NE(page.find("(" + picture.substr(5) + ")"), std::string::npos) << picture << " is not shown on the page";
     ++pictures;
   }
   EXPECT_GE(pictures, 12u);
-  std::filesystem::remove(made);
 }
 
 // PNG is made by librsvg's program; without it the command says so, and leaves nothing behind.
-TEST(TextbookDocs, PicturesCanBePng) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "surefill_textbook_png";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directory(folder);
+TEST_F(TextbookDocs, PicturesCanBePng) {
   const std::string scene = (kRoot / "docs/textbook/small.scene").string(),
-                    call = "cd '" + folder.string() + "' && '" SUREFILL_COMMAND "' explain '" + scene +
+                    call = "cd '" + folder_.string() + "' && '" SUREFILL_COMMAND "' explain '" + scene +
                            "' -o a.png 2>err.txt";
   const bool can = std::system("command -v rsvg-convert >/dev/null") == 0;
   EXPECT_EQ(std::system(call.c_str()) == 0, can);
   std::size_t files = 0;
-  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder)) ++files;
+  for ([[maybe_unused]] const auto& entry : std::filesystem::directory_iterator(folder_)) ++files;
   EXPECT_EQ(files, can ? 2u : 1u);
   if (can) {
-    EXPECT_TRUE(contents(folder / "a.png").starts_with("\x89PNG\r\n\x1a\n"));
+    EXPECT_TRUE(contents(folder_ / "a.png").starts_with("\x89PNG\r\n\x1a\n"));
   } else {
-    EXPECT_NE(contents(folder / "err.txt").find("librsvg2-bin"), std::string::npos);
+    EXPECT_NE(contents(folder_ / "err.txt").find("librsvg2-bin"), std::string::npos);
   }
-  std::filesystem::remove_all(folder);
 }
 
 std::string trimmed(const std::string& text) {
@@ -99,9 +91,9 @@ std::string written_like(const std::string& on_page, double value) {
   return text;
 }
 
-TEST(TextbookDocs, TheCountTableIsWhatTheCommandPrints) {
-  const std::filesystem::path printed = std::filesystem::path(testing::TempDir()) / "surefill_textbook_counts.txt";
-  ASSERT_EQ(std::system(("'" SUREFILL_COMMAND "' explain --counts >'" + printed.string() + "'").c_str()), 0);
+TEST_F(TextbookDocs, TheCountTableIsWhatTheCommandPrints) {
+  const std::string printed = path("counts.txt");
+  ASSERT_EQ(std::system(("'" SUREFILL_COMMAND "' explain --counts >'" + printed + "'").c_str()), 0);
   // Visits and edge evaluations by "KIND TRAVERSAL".
   std::map<std::string, std::array<double, 2>> counts;
   std::ifstream lines(printed);
@@ -114,7 +106,6 @@ TEST(TextbookDocs, TheCountTableIsWhatTheCommandPrints) {
     EXPECT_TRUE(numbers) << line;
     counts[trimmed(line.substr(0, 20)) + " " + trimmed(line.substr(20, 18))] = {visits, edges};
   }
-  std::filesystem::remove(printed);
   std::ifstream page(kRoot / "docs/textbook.md");
   std::vector<std::string> kinds;
   std::size_t compared = 0;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <exception>
 #include <numeric>
+#include <utility>
 
 namespace surefill::drivers {
 
@@ -62,8 +63,9 @@ VertexStream vertex_stream(const surefill_adapter_scene& scene, bool attributes)
     }
     std::vector<std::uint32_t> order(draw.triangle_count);
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&draw](std::uint32_t a, std::uint32_t b) { return draw.identifiers[a] < draw.identifiers[b]; });
+    std::sort(order.begin(), order.end(), [&draw](std::uint32_t a, std::uint32_t b) {
+      return std::pair(draw.identifiers[a], a) < std::pair(draw.identifiers[b], b);
+    });
     std::reverse(order.begin(), order.end());
     for (const std::uint32_t t : order) {
       for (std::uint32_t corner = 0; corner < 3; ++corner) {

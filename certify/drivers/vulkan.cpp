@@ -8,8 +8,6 @@
 //   claim=non-finite  NaN and infinities are drawn and judged, which no standard promises
 //   fault=STATE     leaves a state wrong on purpose, for tests of the self-check: scissor, viewport, multisample,
 //                   cull, blend, depth-range, front-face, depth-test; and invalid, for tests of the validation
-#include <vulkan/vulkan.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -19,54 +17,13 @@
 
 #include "certify/drivers/driver.hpp"
 #include "certify/drivers/spirv.hpp"
+#include "certify/drivers/vulkan_device.hpp"
 
 namespace surefill::drivers {
 
 namespace {
 
-void check(VkResult result, const char* what) {
-  if (result == VK_SUCCESS) return;
-  throw DriverError(std::string("Vulkan: ") + what + " returned " + std::to_string(result));
-}
-
-// A structure of this type with all else zero.
-template <typename Structure>
-Structure make(VkStructureType type) {
-  Structure structure{};
-  structure.sType = type;
-  return structure;
-}
-
-constexpr VkFormat kCountFormat = VK_FORMAT_R32_SFLOAT;
-constexpr VkFormat kIndexFormat = VK_FORMAT_R32_UINT;
-constexpr VkFormat kValueFormat = VK_FORMAT_R32G32B32A32_SFLOAT;
-constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;
 constexpr VkDeviceSize kAlignment = 256;  // of storage buffer offsets: no device asks for more
-
-std::string said_by_validation;
-
-VKAPI_ATTR VkBool32 VKAPI_CALL on_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                          const VkDebugUtilsMessengerCallbackDataEXT* data, void*) {
-  if (said_by_validation.empty()) said_by_validation = data->pMessage;
-  return VK_FALSE;
-}
-
-struct Buffer {
-  VkBuffer buffer = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  VkDeviceSize size = 0;
-  void* data = nullptr;
-};
-
-struct Image {
-  VkFormat format{};
-  VkImage image = VK_NULL_HANDLE;
-  VkDeviceMemory memory = VK_NULL_HANDLE;
-  VkImageView view = VK_NULL_HANDLE;
-  bool depth() const { return format == kDepthFormat; }
-  VkImageAspectFlags aspect() const { return depth() ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT; }
-  std::uint32_t components() const { return format == kValueFormat ? 4 : 1; }
-};
 
 // Images to draw to, colours first, the depth last where there is one.
 struct Framebuffer {
@@ -74,45 +31,35 @@ struct Framebuffer {
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
 };
 
-class Vulkan : public Driver {
+std::string device_name(const Arguments& arguments) {
+  // Each thread of certify has a process of its own; this is for lavapipe, and before it is loaded.
+  ::setenv("LP_NUM_THREADS", "0", 0);
+  const char* named = std::getenv("SUREFILL_VULKAN_DEVICE");
+  return argument(arguments, "device", named ? named : "");
+}
+
+class Vulkan : public Driver, private VulkanDevice {
  public:
-  explicit Vulkan(const Arguments& arguments) : fault_(argument(arguments, "fault")) {
-    const char* named = std::getenv("SUREFILL_VULKAN_DEVICE");
-    const std::string device = argument(arguments, "device", named ? named : "");
+  explicit Vulkan(const Arguments& arguments)
+      : VulkanDevice(arguments.count("validation") > 0, device_name(arguments)), fault_(argument(arguments, "fault")) {
     const std::string claim = argument(arguments, "claim");
     if (!claim.empty() && claim != "non-finite") throw NotJudged("argument claim=" + claim + ": there is non-finite");
-    // Each thread of certify has a process of its own; this is for lavapipe.
-    ::setenv("LP_NUM_THREADS", "0", 0);
-    make_instance(arguments.count("validation") > 0);
-    choose_device(device);
-    make_device();
     make_layouts();
     describe(!claim.empty());
   }
 
   ~Vulkan() override {
-    if (device_ != VK_NULL_HANDLE) {
-      vkDeviceWaitIdle(device_);
-      clear_framebuffers();
-      free_buffer(vertices_);
-      free_buffer(words_);
-      for (const auto& [key, pipeline] : pipelines_) vkDestroyPipeline(device_, pipeline, nullptr);
-      for (const VkPipeline pipeline : samples_pipelines_) vkDestroyPipeline(device_, pipeline, nullptr);
-      vkDestroyPipelineLayout(device_, layout_, nullptr);
-      vkDestroyPipelineLayout(device_, samples_layout_, nullptr);
-      vkDestroyDescriptorSetLayout(device_, set_layout_, nullptr);
-      vkDestroyDescriptorPool(device_, descriptors_, nullptr);
-      vkDestroySampler(device_, sampler_, nullptr);
-      vkDestroyFence(device_, fence_, nullptr);
-      vkDestroyCommandPool(device_, command_pool_, nullptr);
-      vkDestroyDevice(device_, nullptr);
-    }
-    if (messenger_ != VK_NULL_HANDLE) {
-      const auto destroy = reinterpret_cast<PFN_vkDestroyDebugUtilsMessengerEXT>(
-          vkGetInstanceProcAddr(instance_, "vkDestroyDebugUtilsMessengerEXT"));
-      destroy(instance_, messenger_, nullptr);
-    }
-    if (instance_ != VK_NULL_HANDLE) vkDestroyInstance(instance_, nullptr);
+    vkDeviceWaitIdle(device_);
+    clear_framebuffers();
+    free_buffer(vertices_);
+    free_buffer(words_);
+    for (const auto& [key, pipeline] : pipelines_) vkDestroyPipeline(device_, pipeline, nullptr);
+    for (const VkPipeline pipeline : samples_pipelines_) vkDestroyPipeline(device_, pipeline, nullptr);
+    vkDestroyPipelineLayout(device_, layout_, nullptr);
+    vkDestroyPipelineLayout(device_, samples_layout_, nullptr);
+    vkDestroyDescriptorSetLayout(device_, set_layout_, nullptr);
+    vkDestroyDescriptorPool(device_, descriptors_, nullptr);
+    vkDestroySampler(device_, sampler_, nullptr);
   }
 
   surefill_adapter_info info() const override { return info_; }
@@ -155,114 +102,11 @@ class Vulkan : public Driver {
         copy(planes[2 + std::size_t{k}], components, image.attributes[k]);
       }
     }
-    if (!said_by_validation.empty()) {
-      const std::string said = said_by_validation;
-      said_by_validation.clear();
-      throw Misuse("the validation layer says: " + said);
-    }
+    const std::string said = validation_message();
+    if (!said.empty()) throw Misuse("the validation layer says: " + said);
   }
 
  private:
-  // --- device ---
-
-  void make_instance(bool validation) {
-    auto application = make<VkApplicationInfo>(VK_STRUCTURE_TYPE_APPLICATION_INFO);
-    application.pApplicationName = "surefill";
-    application.apiVersion = VK_API_VERSION_1_3;
-    auto create = make<VkInstanceCreateInfo>(VK_STRUCTURE_TYPE_INSTANCE_CREATE_INFO);
-    create.pApplicationInfo = &application;
-    const char* layer = "VK_LAYER_KHRONOS_validation";
-    const char* extension = VK_EXT_DEBUG_UTILS_EXTENSION_NAME;
-    if (validation) {
-      create.enabledLayerCount = create.enabledExtensionCount = 1;
-      create.ppEnabledLayerNames = &layer;
-      create.ppEnabledExtensionNames = &extension;
-    }
-    const VkResult result = vkCreateInstance(&create, nullptr, &instance_);
-    if (result == VK_ERROR_LAYER_NOT_PRESENT) throw NotJudged("the Khronos validation layer is not installed");
-    if (result != VK_SUCCESS) throw NotJudged("there is no Vulkan driver");
-    if (!validation) return;
-    auto messages = make<VkDebugUtilsMessengerCreateInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT);
-    messages.messageSeverity =
-        VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    messages.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
-    messages.pfnUserCallback = on_message;
-    const auto create_messenger = reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(
-        vkGetInstanceProcAddr(instance_, "vkCreateDebugUtilsMessengerEXT"));
-    check(create_messenger(instance_, &messages, nullptr, &messenger_), "vkCreateDebugUtilsMessengerEXT");
-  }
-
-  void choose_device(const std::string& name) {
-    std::uint32_t count = 0;
-    vkEnumeratePhysicalDevices(instance_, &count, nullptr);
-    std::vector<VkPhysicalDevice> devices(count);
-    vkEnumeratePhysicalDevices(instance_, &count, devices.data());
-    std::string names;
-    for (const VkPhysicalDevice device : devices) {
-      vkGetPhysicalDeviceProperties(device, &properties_);
-      names += (names.empty() ? "" : ", ") + std::string(properties_.deviceName);
-      if (std::string(properties_.deviceName).find(name) == std::string::npos) continue;
-      if (properties_.apiVersion < VK_API_VERSION_1_3) {
-        throw NotJudged(std::string(properties_.deviceName) + " has no Vulkan 1.3");
-      }
-      physical_ = device;
-      return;
-    }
-    throw NotJudged("there is no Vulkan device \"" + name + "\"; there are: " + (names.empty() ? "none" : names));
-  }
-
-  void make_device() {
-    std::uint32_t count = 0;
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, nullptr);
-    std::vector<VkQueueFamilyProperties> families(count);
-    vkGetPhysicalDeviceQueueFamilyProperties(physical_, &count, families.data());
-    constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    std::uint32_t family = 0;
-    while (family < count && (families[family].queueFlags & kNeeded) != kNeeded) ++family;
-    if (family == count) throw NotJudged("the device has no queue for graphics and compute");
-
-    auto has13 = make<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
-    auto has = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
-    has.pNext = &has13;
-    vkGetPhysicalDeviceFeatures2(physical_, &has);
-    VkFormatProperties count_format{};
-    vkGetPhysicalDeviceFormatProperties(physical_, kCountFormat, &count_format);
-    if (!has13.dynamicRendering || !has13.synchronization2 || !has.features.depthClamp ||
-        !(count_format.optimalTilingFeatures & VK_FORMAT_FEATURE_COLOR_ATTACHMENT_BLEND_BIT)) {
-      throw NotJudged("the device lacks depth clamping or blending of 32-bit floats");
-    }
-    auto use13 = make<VkPhysicalDeviceVulkan13Features>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES);
-    use13.dynamicRendering = use13.synchronization2 = VK_TRUE;
-    auto use = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
-    use.pNext = &use13;
-    use.features.depthClamp = VK_TRUE;
-    use.features.independentBlend = has.features.independentBlend;
-    const float priority = 1;
-    auto queue = make<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
-    queue.queueFamilyIndex = family;
-    queue.queueCount = 1;
-    queue.pQueuePriorities = &priority;
-    auto create = make<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
-    create.pNext = &use;
-    create.queueCreateInfoCount = 1;
-    create.pQueueCreateInfos = &queue;
-    check(vkCreateDevice(physical_, &create, nullptr, &device_), "vkCreateDevice");
-    vkGetDeviceQueue(device_, family, 0, &queue_);
-    vkGetPhysicalDeviceMemoryProperties(physical_, &memory_);
-
-    auto pool = make<VkCommandPoolCreateInfo>(VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO);
-    pool.flags = VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT;
-    pool.queueFamilyIndex = family;
-    check(vkCreateCommandPool(device_, &pool, nullptr, &command_pool_), "vkCreateCommandPool");
-    auto allocate = make<VkCommandBufferAllocateInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO);
-    allocate.commandPool = command_pool_;
-    allocate.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
-    allocate.commandBufferCount = 1;
-    check(vkAllocateCommandBuffers(device_, &allocate, &commands_), "vkAllocateCommandBuffers");
-    const auto fence = make<VkFenceCreateInfo>(VK_STRUCTURE_TYPE_FENCE_CREATE_INFO);
-    check(vkCreateFence(device_, &fence, nullptr, &fence_), "vkCreateFence");
-  }
-
   void make_layouts() {
     VkPushConstantRange modes{VK_SHADER_STAGE_FRAGMENT_BIT, 0, 16};
     auto layout = make<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
@@ -339,86 +183,14 @@ class Vulkan : public Driver {
 
   // --- memory ---
 
-  VkDeviceMemory allocate(const VkMemoryRequirements& needed, VkMemoryPropertyFlags flags) {
-    for (std::uint32_t type = 0; type < memory_.memoryTypeCount; ++type) {
-      if (!(needed.memoryTypeBits >> type & 1u)) continue;
-      if ((memory_.memoryTypes[type].propertyFlags & flags) != flags) continue;
-      auto allocate = make<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
-      allocate.allocationSize = needed.size;
-      allocate.memoryTypeIndex = type;
-      VkDeviceMemory memory = VK_NULL_HANDLE;
-      if (vkAllocateMemory(device_, &allocate, nullptr, &memory) != VK_SUCCESS) break;
-      return memory;
-    }
-    throw NotJudged("the device has too little memory for this target");
-  }
-
-  void free_buffer(Buffer& buffer) {
-    if (buffer.buffer == VK_NULL_HANDLE) return;
-    vkDestroyBuffer(device_, buffer.buffer, nullptr);
-    vkFreeMemory(device_, buffer.memory, nullptr);
-    buffer = {};
-  }
-
-  void grow(Buffer& buffer, VkDeviceSize size, VkBufferUsageFlags usage) {
-    if (buffer.size >= size && buffer.size > 0) return;
-    free_buffer(buffer);
-    auto create = make<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);
-    create.size = std::bit_ceil(std::max<VkDeviceSize>(size, 4096));
-    create.usage = usage;
-    check(vkCreateBuffer(device_, &create, nullptr, &buffer.buffer), "vkCreateBuffer");
-    VkMemoryRequirements needed{};
-    vkGetBufferMemoryRequirements(device_, buffer.buffer, &needed);
-    buffer.memory = allocate(needed, VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT);
-    check(vkBindBufferMemory(device_, buffer.buffer, buffer.memory, 0), "vkBindBufferMemory");
-    check(vkMapMemory(device_, buffer.memory, 0, VK_WHOLE_SIZE, 0, &buffer.data), "vkMapMemory");
-    buffer.size = create.size;
-  }
-
   void put_vertices(const VertexStream& stream) {
     grow(vertices_, stream.words.size() * 4, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
     std::copy(stream.words.begin(), stream.words.end(), static_cast<std::uint32_t*>(vertices_.data));
   }
 
-  Image make_image(VkFormat format, std::uint32_t width, std::uint32_t height, VkSampleCountFlagBits samples) {
-    Image image;
-    image.format = format;
-    auto create = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
-    create.imageType = VK_IMAGE_TYPE_2D;
-    create.format = format;
-    create.extent = {width, height, 1};
-    create.mipLevels = create.arrayLayers = 1;
-    create.samples = samples;
-    create.usage = image.depth() ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
-    create.usage |= samples == VK_SAMPLE_COUNT_1_BIT ? VK_IMAGE_USAGE_TRANSFER_SRC_BIT : VK_IMAGE_USAGE_SAMPLED_BIT;
-    if (vkCreateImage(device_, &create, nullptr, &image.image) != VK_SUCCESS) {
-      throw NotJudged("the device has no images of this size");
-    }
-    VkMemoryRequirements needed{};
-    vkGetImageMemoryRequirements(device_, image.image, &needed);
-    try {
-      image.memory = allocate(needed, VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT);
-    } catch (...) {
-      vkDestroyImage(device_, image.image, nullptr);
-      throw;
-    }
-    check(vkBindImageMemory(device_, image.image, image.memory, 0), "vkBindImageMemory");
-    auto view = make<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
-    view.image = image.image;
-    view.viewType = VK_IMAGE_VIEW_TYPE_2D;
-    view.format = format;
-    view.subresourceRange = {image.aspect(), 0, 1, 0, 1};
-    check(vkCreateImageView(device_, &view, nullptr, &image.view), "vkCreateImageView");
-    return image;
-  }
-
   void clear_framebuffers() {
     for (const auto& [shape, framebuffer] : framebuffers_) {
-      for (const Image& image : framebuffer.images) {
-        vkDestroyImageView(device_, image.view, nullptr);
-        vkDestroyImage(device_, image.image, nullptr);
-        vkFreeMemory(device_, image.memory, nullptr);
-      }
+      for (const Image& image : framebuffer.images) free_image(image);
     }
     framebuffers_.clear();
   }
@@ -730,11 +502,8 @@ class Vulkan : public Driver {
     }
     grow(words_, offsets.back(), VK_BUFFER_USAGE_TRANSFER_DST_BIT | VK_BUFFER_USAGE_STORAGE_BUFFER_BIT);
 
-    check(vkResetCommandBuffer(commands_, 0), "vkResetCommandBuffer");
     check(vkResetDescriptorPool(device_, descriptors_, 0), "vkResetDescriptorPool");
-    auto begin = make<VkCommandBufferBeginInfo>(VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO);
-    begin.flags = VK_COMMAND_BUFFER_USAGE_ONE_TIME_SUBMIT_BIT;
-    check(vkBeginCommandBuffer(commands_, &begin), "vkBeginCommandBuffer");
+    begin();
     constexpr VkPipelineStageFlags2 kAll = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     constexpr VkAccessFlags2 kBoth = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
     barrier(kAll, kBoth, kAll, kBoth, &drawn);
@@ -743,13 +512,7 @@ class Vulkan : public Driver {
     barrier(kAll, VK_ACCESS_2_MEMORY_WRITE_BIT, kAll, kBoth);
     read_back(scene, shown, offsets);
     barrier(kAll, VK_ACCESS_2_MEMORY_WRITE_BIT, VK_PIPELINE_STAGE_2_HOST_BIT, VK_ACCESS_2_HOST_READ_BIT);
-    check(vkEndCommandBuffer(commands_), "vkEndCommandBuffer");
-    auto submit = make<VkSubmitInfo>(VK_STRUCTURE_TYPE_SUBMIT_INFO);
-    submit.commandBufferCount = 1;
-    submit.pCommandBuffers = &commands_;
-    check(vkQueueSubmit(queue_, 1, &submit, fence_), "vkQueueSubmit");
-    check(vkWaitForFences(device_, 1, &fence_, VK_TRUE, UINT64_MAX), "vkWaitForFences");
-    check(vkResetFences(device_, 1, &fence_), "vkResetFences");
+    submit();
 
     std::vector<std::vector<std::uint32_t>> planes;
     for (std::size_t n = 0; n < shown.images.size(); ++n) {
@@ -780,16 +543,6 @@ class Vulkan : public Driver {
   static constexpr std::uint64_t kLargePixels = 1 << 16;
 
   std::string fault_;
-  VkInstance instance_ = VK_NULL_HANDLE;
-  VkDebugUtilsMessengerEXT messenger_ = VK_NULL_HANDLE;
-  VkPhysicalDevice physical_ = VK_NULL_HANDLE;
-  VkPhysicalDeviceProperties properties_{};
-  VkPhysicalDeviceMemoryProperties memory_{};
-  VkDevice device_ = VK_NULL_HANDLE;
-  VkQueue queue_ = VK_NULL_HANDLE;
-  VkCommandPool command_pool_ = VK_NULL_HANDLE;
-  VkCommandBuffer commands_ = VK_NULL_HANDLE;
-  VkFence fence_ = VK_NULL_HANDLE;
   VkSampler sampler_ = VK_NULL_HANDLE;
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkDescriptorPool descriptors_ = VK_NULL_HANDLE;

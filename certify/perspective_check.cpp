@@ -16,32 +16,41 @@ namespace {
 
 using corpus::Scene;
 
-constexpr int kWidth = 1920, kHeight = 1080;
+struct Size {
+  int width, height;
+};
+// What drivers draw in an instant would take a rasterizer that looks at all samples for each triangle minutes.
+constexpr Size kLarge{1920, 1080}, kSmall{480, 270};
+
+Size size_for(const adapters::Rival& rival) {
+  return rival.info().form == SUREFILL_ADAPTER_FORM_CLIP ? kLarge : kSmall;
+}
+
 // Corners of quads are this far apart and moved by up to a quarter of it, so that every triangle stays several pixels
 // high: no snapping to a grid of 4 bits or more turns one over.
 constexpr int kCell = 24, kMoved = 6;
 
 // Quads all over the target and beyond, cut along one diagonal or the other. W differs from vertex to vertex and is no
 // power of two, so X/W is rounded by whoever divides; neighbours share the rounded vertex.
-Scene perspective_mesh(std::uint64_t seed) {
+Scene perspective_mesh(std::uint64_t seed, const Size& size) {
   properties::Random random(seed);
   Scene scene;
-  scene.width = kWidth;
-  scene.height = kHeight;
+  scene.width = size.width;
+  scene.height = size.height;
   corpus::SceneDraw& draw = scene.draws.emplace_back();
-  constexpr int kColumns = kWidth / kCell + 3, kRows = kHeight / kCell + 3;
-  for (int j = 0; j <= kRows; ++j) {
-    for (int i = 0; i <= kColumns; ++i) {
+  const int columns = size.width / kCell + 3, rows = size.height / kCell + 3;
+  for (int j = 0; j <= rows; ++j) {
+    for (int i = 0; i <= columns; ++i) {
       const auto w = static_cast<float>(1 + 15 * random.unit());
       const double x = (i - 1) * kCell + kMoved * (2 * random.unit() - 1);
       const double y = (j - 1) * kCell + kMoved * (2 * random.unit() - 1);
       draw.vertices.push_back({static_cast<float>(x * w), static_cast<float>(y * w), w / 2, w, {}});
     }
   }
-  for (int j = 0; j < kRows; ++j) {
-    for (int i = 0; i < kColumns; ++i) {
-      const auto a = static_cast<std::uint32_t>(j * (kColumns + 1) + i);
-      const std::uint32_t b = a + 1, c = a + static_cast<std::uint32_t>(kColumns) + 1, d = c + 1;
+  for (int j = 0; j < rows; ++j) {
+    for (int i = 0; i < columns; ++i) {
+      const auto a = static_cast<std::uint32_t>(j * (columns + 1) + i);
+      const std::uint32_t b = a + 1, c = a + static_cast<std::uint32_t>(columns) + 1, d = c + 1;
       if (random.one_in(2)) {
         draw.triangles.push_back({{a, b, c}, std::nullopt});
         draw.triangles.push_back({{c, b, d}, std::nullopt});
@@ -69,7 +78,8 @@ std::string found_at(const Scene& scene, std::size_t sample, std::uint32_t count
 Scene near_sample(const Scene& scene, std::size_t sample) {
   Scene part = scene;
   corpus::SceneDraw& draw = part.draws[0];
-  const double x = static_cast<double>(sample % kWidth) + 0.5, y = static_cast<double>(sample / kWidth) + 0.5;
+  const auto width = static_cast<std::size_t>(scene.width);
+  const double x = static_cast<double>(sample % width) + 0.5, y = static_cast<double>(sample / width) + 0.5;
   std::erase_if(draw.triangles, [&](const corpus::SceneTriangle& triangle) {
     double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     for (const std::uint32_t v : triangle.vertices) {
@@ -86,7 +96,7 @@ Scene near_sample(const Scene& scene, std::size_t sample) {
 
 CaseResult whole_mesh(adapters::Rival& rival, std::uint64_t seed) {
   CaseResult result;
-  const Scene scene = perspective_mesh(seed);
+  const Scene scene = perspective_mesh(seed, size_for(rival));
   try {
     const std::vector<std::uint32_t> counts = counts_of(rival, scene);
     result.samples = counts.size();
@@ -133,6 +143,9 @@ std::string crack_in(adapters::Rival& rival, const Scene& scene) {
 }  // namespace
 
 void make_perspective_check(const Settings& settings, adapters::Rival& rival, Check& check) {
+  const Size size = size_for(rival);
+  check.claim = fmt::format("a mesh in perspective of some {} triangles covers each sample of {} x {} once",
+                            size.width > 1000 ? "thousand" : "hundred", size.width, size.height);
   check.unit = "meshes";
   check.cost = 0.3;
   check.prepare = [cases = by_level<std::uint64_t>(settings.level, 2, 40, 2000)] { return cases; };

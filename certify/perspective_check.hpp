@@ -10,7 +10,7 @@
 
 namespace surefill::certify {
 
-// Fills in all but the name, the rule, the claim and what is common to checks of rivals.
+// Fills in all but the name, the rule and what is common to checks of rivals.
 void make_perspective_check(const Settings& settings, adapters::Rival& rival, Check& check);
 
 }  // namespace surefill::certify

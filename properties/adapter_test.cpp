@@ -96,6 +96,26 @@ TEST_F(Adapter, AModelIsFound) {
   EXPECT_TRUE(says("probing finds grid of 8 bits, nearest-up, offset (0, 0), fill rule top-left")) << out;
 }
 
+TEST_F(Adapter, ReportedBitsAreHeldAgainstTheModel) {
+  const std::string engine = "--only precision --plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments ";
+  EXPECT_EQ(certify(engine + "reports-opengl"), 0) << out;
+  EXPECT_TRUE(says("the 8 bits of subpixel precision that it reports, or more")) << out;
+  EXPECT_EQ(certify(engine + "reports-vulkan"), 1) << out;
+  EXPECT_TRUE(says("probing finds exact")) << out;
+}
+
+TEST_F(Adapter, WhatIsNotHereIsNotJudged) {
+  EXPECT_EQ(certify_engine("not-here"), 2) << out;
+  EXPECT_TRUE(says("nothing to judge: no such device on this machine")) << out;
+  EXPECT_FALSE(says("CERTIFIED")) << out;
+}
+
+// Where it cracks: drivers_test.cpp, softpipe.
+TEST_F(Adapter, MeshesInPerspectiveTile) {
+  EXPECT_EQ(certify("--only mesh-perspective --plugin " SUREFILL_ENGINE_PLUGIN), 0) << out;
+  EXPECT_EQ(certify("--only mesh-perspective --plugin " SUREFILL_FIXED_POINT), 0) << out;
+}
+
 TEST_F(Adapter, FloatEdgesCrackWithoutTheCorpus) {
   EXPECT_EQ(certify("--only 'partition-delaunay' --plugin " SUREFILL_FLOAT_EDGES), 1) << out;
   EXPECT_TRUE(says("count of a tiling")) << out;

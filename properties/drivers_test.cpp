@@ -4,30 +4,24 @@
 // where the driver is the one that the page is about, and a state that is left wrong is noticed before any verdict.
 #include <gtest/gtest.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
+
+#include "properties/test_folder.hpp"
 
 namespace surefill {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kLlvmpipe = "--adapter opengl --plugin-arguments ";
+constexpr const char* kOpenGl = "--adapter opengl --plugin-arguments ";
 constexpr const char* kVulkan = "--adapter vulkan --plugin-arguments ";
 
-std::string read(const fs::path& file) {
-  std::ostringstream text;
-  text << std::ifstream(file, std::ios::binary).rdbuf();
-  return std::move(text).str();
-}
-
-class Drivers : public ::testing::Test {
+class Drivers : public InFolder {
  protected:
   void SetUp() override {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || defined(__SANITIZE_UNDEFINED__)
@@ -37,13 +31,8 @@ class Drivers : public ::testing::Test {
     GTEST_SKIP() << "drivers are not built for sanitizers";
 #endif
 #endif
-    std::string name = (fs::temp_directory_path() / "surefill-XXXXXX").string();
-    ASSERT_NE(::mkdtemp(name.data()), nullptr);
-    folder_ = name;
+    InFolder::SetUp();
     fs::create_directory_symlink(fs::path(SUREFILL_CERTIFICATES) / "scenes", folder_ / "scenes");
-  }
-  void TearDown() override {
-    if (!folder_.empty()) fs::remove_all(folder_);
   }
 
   // The exit status; what is printed is in `out`.
@@ -51,7 +40,7 @@ class Drivers : public ::testing::Test {
     const std::string line =
         "cd '" + folder_.string() + "' && " SUREFILL_COMMAND " " + arguments + " >out.txt 2>err.txt";
     const int status = std::system(line.c_str());
-    out = read(folder_ / "out.txt") + read(folder_ / "err.txt");
+    out = contents(folder_ / "out.txt") + contents(folder_ / "err.txt");
     return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
   }
   bool says(const std::string& text) const {
@@ -85,8 +74,8 @@ class Drivers : public ::testing::Test {
   // in blocks of ```text, each line is in the record of the run at standard level beside the page.
   void replay_page(const std::string& name) {
     const fs::path pages = SUREFILL_CERTIFICATES;
-    std::istringstream page(read(pages / (name + ".md")));
-    const std::string record = read(pages / (name + ".txt"));
+    std::istringstream page(contents(pages / (name + ".md")));
+    const std::string record = contents(pages / (name + ".txt"));
     std::string about, options, block;
     std::size_t commands = 0, quoted = 0;
     bool here = false;
@@ -123,7 +112,6 @@ class Drivers : public ::testing::Test {
     EXPECT_GT(quoted, 5u) << "the page quotes no run";
   }
 
-  fs::path folder_;
   std::string out;
 };
 
@@ -138,13 +126,13 @@ TEST_F(Drivers, PageLavapipe) {
 }
 
 TEST_F(Drivers, WrongStateIsNotBlamedOnLlvmpipe) {
-  expect_noticed(kLlvmpipe + std::string("'driver=llvmpipe'"),
+  expect_noticed(kOpenGl + std::string("'driver=llvmpipe'"),
                  {"scissor", "viewport", "multisample", "cull", "blend", "depth-range", "polygon-offset", "color-mask",
                   "front-face", "depth-test"});
 }
 TEST_F(Drivers, WrongStateIsNotBlamedOnSoftpipe) {
   // It has no multisampling that could be left on.
-  expect_noticed(kLlvmpipe + std::string("'driver=softpipe'"),
+  expect_noticed(kOpenGl + std::string("'driver=softpipe'"),
                  {"scissor", "viewport", "cull", "blend", "depth-range", "polygon-offset", "color-mask", "front-face",
                   "depth-test"});
 }
@@ -161,7 +149,7 @@ TEST_F(Drivers, AbsentDriversAreNotJudged) {
 }
 
 TEST_F(Drivers, OpenGlConventionsAreFound) {
-  const std::string options = kLlvmpipe + std::string("'driver=llvmpipe clip=classic'");
+  const std::string options = kOpenGl + std::string("'driver=llvmpipe clip=classic'");
   if (driver(options).empty()) GTEST_SKIP() << out;
   EXPECT_TRUE(says("rows from the bottom")) << out;
   EXPECT_TRUE(says("clip depth -1 to 1")) << out;

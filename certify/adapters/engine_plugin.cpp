@@ -131,6 +131,10 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
     open_error = "no device";
     return SUREFILL_ADAPTER_FAILED;
   }
+  if (fault == "not-here") {
+    open_error = "no such device on this machine";
+    return SUREFILL_ADAPTER_UNSUPPORTED;
+  }
   if (fault == "exit-on-open") std::exit(5);
   std::snprintf(info->name, sizeof info->name, "%s", fault == "no-name" ? "" : "surefill");
   std::snprintf(info->version, sizeof info->version, "%s", SUREFILL_VERSION);
@@ -145,6 +149,11 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
     info->model.grid_bits = 8;
   }
   info->model.profile = SUREFILL_ADAPTER_PROFILE_EXACT;
+  if (fault == "reports-vulkan" || fault == "reports-opengl") {
+    info->model.kind = SUREFILL_ADAPTER_MODEL_UNKNOWN;
+    info->model.grid_bits = 8;
+    info->model.profile = fault == "reports-vulkan" ? SUREFILL_ADAPTER_PROFILE_VULKAN : SUREFILL_ADAPTER_PROFILE_OPENGL;
+  }
   *handle = new Instance{fault, "", 0};
   return SUREFILL_ADAPTER_OK;
 }

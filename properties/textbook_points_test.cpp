@@ -65,44 +65,50 @@ TEST(TextbookPoints, CoverWhatTheOracleSays) {
   for_each_case(cases.size(), decide, Cases::corpus);
 }
 
-// A strip that goes to the right, never steeper than 45 degrees: every column between its ends is hit once, by thin
-// lines and by lines of width 1.
-TEST(TextbookLines, AConnectedStripHitsEachColumnOnce) {
+// A strip that goes in one direction, never steeper than 45 degrees to it (and, where that is y, always flatter, since
+// at 45 degrees x is the major axis): every column, or row, between its ends is hit once, by thin lines and by lines of
+// width 1.
+TEST(TextbookLines, AConnectedStripHitsEachColumnOrRowOnce) {
+  enum Heading { kRight, kLeft, kDown, kUp };
   for_each_case(textbook_scenes(1'000), [](std::uint64_t n) -> std::string {
     Random random(n);
     const auto rule = static_cast<FillRule>(random.below(8));
+    const auto heading = static_cast<Heading>(random.below(4));
+    const auto at = [heading](double along, double across) {
+      const double forwards = heading == kRight || heading == kDown ? along : 12 - along;
+      return heading == kRight || heading == kLeft ? SamplePosition{forwards, across}
+                                                   : SamplePosition{across, forwards};
+    };
     const int units = random.one_in(2) ? 2 : 16;  // of a pixel: halves lie on samples and on corners of diamonds
-    int x = random.between(-units, units), y = 6 * units + random.between(-units, units);
+    int along = random.between(-units, units), across = 6 * units + random.between(-units, units);
+    const double first = static_cast<double>(along) / units;
+    double last = first, low = 100, high = -100;
     std::vector<Vertex> strip;
-    while (x < 12 * units) {
+    while (along < 12 * units) {
+      last = static_cast<double>(along) / units;
+      const double aside = static_cast<double>(across) / units;
+      low = std::min(low, aside), high = std::max(high, aside);
+      const SamplePosition p = at(last, aside);
       const auto w = static_cast<float>(1 << random.between(0, 2));
-      strip.push_back({static_cast<float>(x) / static_cast<float>(units) * w,
-                       static_cast<float>(y) / static_cast<float>(units) * w, 0, w});
-      const int step = random.between(1, 3 * units);
-      x += step, y += random.between(-step, step);
+      strip.push_back({static_cast<float>(p.x) * w, static_cast<float>(p.y) * w, 0, w});
+      const int step = random.between(1, 3 * units), most = heading == kDown || heading == kUp ? step - 1 : step;
+      along += step, across += random.between(-most, most);
     }
-    if (strip.size() < 2) return "";
-    const double first = strip.front().x / strip.front().w, last = strip.back().x / strip.back().w;
-    int top = 100, bottom = -100;
-    for (const Vertex& v : strip) {
-      top = std::min(top, static_cast<int>(std::floor(v.y / v.w)) - 2);
-      bottom = std::max(bottom, static_cast<int>(std::floor(v.y / v.w)) + 2);
-    }
-    for (int column = 0; column < 12; ++column) {
-      if (column - 0.5 <= first || column + 1.5 >= last) continue;
+    std::vector<textbook::Line> lines;
+    for (std::size_t k = 0; k + 1 < strip.size(); ++k) lines.emplace_back(strip[k], strip[k + 1], rule);
+    for (int i = 0; i < 12; ++i) {
+      if (i - 0.5 <= first || i + 1.5 >= last) continue;
       int thin = 0, wide = 0;
-      for (int row = top; row <= bottom; ++row) {
-        const SamplePosition p{column + 0.5, row + 0.5};
-        for (std::size_t k = 0; k + 1 < strip.size(); ++k) {
-          const textbook::Line line(strip[k], strip[k + 1], rule);
-          if (line.exits_diamond(p)) ++thin;
-          if (line.covers_wide(1, p)) ++wide;
+      for (double j = std::floor(low) - 2; j <= high + 2; ++j) {
+        for (const textbook::Line& line : lines) {
+          if (line.exits_diamond(at(i + 0.5, j + 0.5))) ++thin;
+          if (line.covers_wide(1, at(i + 0.5, j + 0.5))) ++wide;
         }
       }
-      if (thin != 1)
-        return "column " + std::to_string(column) + " hit " + std::to_string(thin) + " times by thin lines";
-      if (wide != 1)
-        return "column " + std::to_string(column) + " hit " + std::to_string(wide) + " times by lines of width 1";
+      if (thin != 1 || wide != 1) {
+        return "heading " + std::to_string(heading) + ", step " + std::to_string(i) + ": " + std::to_string(thin) +
+               " hits by thin lines, " + std::to_string(wide) + " by lines of width 1";
+      }
     }
     return "";
   });

@@ -110,7 +110,10 @@ TEST_F(TextbookDocs, TheCountTableIsWhatTheCommandPrints) {
   std::vector<std::string> kinds;
   std::size_t compared = 0;
   while (std::getline(page, line)) {
-    if (!line.starts_with("| ")) continue;
+    if (!line.starts_with("| ")) {
+      kinds.clear();
+      continue;
+    }
     const std::vector<std::string> cells = cells_of(line);
     if (cells[0].starts_with("visited")) kinds = cells;
     if (kinds.empty() || cells[0].starts_with("visited") || cells[0].starts_with("-")) continue;

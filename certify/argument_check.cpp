@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// B2: a call that breaks one promise of the header returns the status that names the argument, and writes nothing.
+// B2: a call that breaks one promise of the header returns the status that names the argument, and writes nothing; a
+// call that just keeps them all is accepted.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <span>
@@ -85,6 +88,12 @@ std::span<T> null_span(std::size_t size) {
   return {static_cast<T*>(nullptr), size};
 }
 
+// A buffer that there is not, low in the address space, where it overlaps none.
+template <typename T>
+std::span<T> nowhere(std::size_t size) {
+  return {reinterpret_cast<T*>(alignof(T)), size};
+}
+
 constexpr Fault kFaults[] = {
     {"width 0", Status::target_size, [](Call& c) { c.target.width = 0; }},
     {"width -1", Status::target_size, [](Call& c) { c.target.width = -1; }},
@@ -94,6 +103,7 @@ constexpr Fault kFaults[] = {
     {"largest height", Status::target_size, [](Call& c) { c.target.height = std::numeric_limits<int>::max(); }},
     {"0 samples", Status::target_samples, [](Call& c) { c.target.samples = 0; }},
     {"3 samples", Status::target_samples, [](Call& c) { c.target.samples = 3; }},
+    {"17 samples", Status::target_samples, [](Call& c) { c.target.samples = 17; }},
     {"32 samples", Status::target_samples, [](Call& c) { c.target.samples = 32; }},
     {"-1 samples", Status::target_samples, [](Call& c) { c.target.samples = -1; }},
     {"count too short", Status::target_count, [](Call& c) { c.target.count = std::span(c.count).first(kPixels - 1); }},
@@ -127,6 +137,21 @@ constexpr Fault kFaults[] = {
     {"initial depth null", Status::target_initial_depth,
      [](Call& c) { c.target.initial_depth = null_span<const float>(kPixels); }},
     {"count is index", Status::target_overlap, [](Call& c) { c.target.index = c.target.count; }},
+    {"index overlaps count at its end", Status::target_overlap,
+     [](Call& c) { c.target.index = std::span(c.count).subspan(kPixels - 1, kPixels); }},
+    {"count overlaps index at its end", Status::target_overlap,
+     [](Call& c) {
+       c.target.index = std::span(c.count).first(kPixels);
+       c.target.count = std::span(c.count).subspan(kPixels - 1, kPixels);
+     }},
+    {"an attribute target over the barycentrics", Status::target_overlap,
+     [](Call& c) { c.attribute_targets[0].values = std::span(c.barycentrics).first(2 * kPixels); }},
+    {"count over the identifiers", Status::target_overlap,
+     [](Call& c) { c.draw().identifiers = std::span(c.count).first(1); }},
+    {"depth over the attribute values", Status::target_overlap,
+     [](Call& c) { c.attribute_arrays[0].values = std::span<const float>(c.depth).first(6); }},
+    {"barycentrics over the initial depth", Status::target_overlap,
+     [](Call& c) { c.target.initial_depth = std::span<const float>(c.barycentrics).first(kPixels); }},
     {"depth overlaps initial depth", Status::target_overlap,
      [](Call& c) { c.target.initial_depth = std::span(c.depth).subspan(1, kPixels); }},
     {"count over the indices", Status::target_overlap, [](Call& c) { c.draw().indices = std::span(c.count).first(3); }},
@@ -199,6 +224,107 @@ constexpr Fault kFaults[] = {
      }},
 };
 
+// Calls that are right, if only just: sizes at their limits, buffers that touch. `validate` alone is asked, so that a
+// buffer may be one that there is not.
+constexpr Fault kAccepted[] = {
+    {"nothing spoiled", Status::ok, [](Call&) {}},
+    {"one output of the largest width", Status::ok,
+     [](Call& c) {
+       c.target = {};
+       c.target.width = kMaxTargetSize;
+       c.target.height = 1;
+       c.count.resize(static_cast<std::size_t>(kMaxTargetSize));
+       c.target.count = c.count;
+     }},
+    {"one output of the largest height and samples", Status::ok,
+     [](Call& c) {
+       c.target = {};
+       c.target.width = 1;
+       c.target.height = kMaxTargetSize;
+       c.target.samples = 16;
+       c.count.resize(16 * static_cast<std::size_t>(kMaxTargetSize));
+       c.target.count = c.count;
+     }},
+    {"index right after count", Status::ok,
+     [](Call& c) { c.target.index = std::span(c.count).subspan(kPixels, kPixels); }},
+    {"index right before count", Status::ok,
+     [](Call& c) {
+       c.target.index = std::span(c.count).first(kPixels);
+       c.target.count = std::span(c.count).subspan(kPixels, kPixels);
+     }},
+    {"an empty count within the index", Status::ok,
+     [](Call& c) { c.target.count = std::span(c.index).subspan(kPixels / 2, 0); }},
+    {"an empty index within the count", Status::ok,
+     [](Call& c) { c.target.index = std::span(c.count).subspan(kPixels / 2, 0); }},
+    {"depth is initial depth", Status::ok, [](Call& c) { c.target.initial_depth = c.target.depth; }},
+    {"indices right after count", Status::ok,
+     [](Call& c) {
+       std::fill(c.count.begin(), c.count.end(), 0u);
+       c.draw().indices = std::span(c.count).subspan(kPixels, 3);
+     }},
+    {"no draws", Status::ok, [](Call& c) { c.draws.clear(); }},
+    {"a draw of nothing", Status::ok,
+     [](Call& c) {
+       c.draw().vertices = {};
+       c.draw().indices = {};
+       c.draw().identifiers = {};
+       c.attribute_arrays[0].values = {};
+     }},
+    {"no identifiers, the largest first index", Status::ok,
+     [](Call& c) {
+       c.draw().identifiers = {};
+       c.draw().first_index = 0xFFFFFFFEu;
+     }},
+    {"attribute values that end with the last vertex", Status::ok,
+     [](Call& c) {
+       c.colours.resize(10);
+       c.attribute_arrays[0].values = c.colours;
+       c.attribute_arrays[0].stride = 4;
+     }},
+    {"the most vertices", Status::ok,
+     [](Call& c) {
+       c.draw().vertices = nowhere<const Vertex>(0xFFFFFFFFu);
+       c.target.attributes = {};
+       c.draw().attributes = {};
+     }},
+    {"one vertex more", Status::draw_vertices,
+     [](Call& c) {
+       c.draw().vertices = nowhere<const Vertex>(std::size_t{1} << 32);
+       c.target.attributes = {};
+       c.draw().attributes = {};
+     }},
+    {"the most triangles and one more", Status::draw_indices,
+     [](Call& c) { c.draw().indices = nowhere<const std::uint32_t>(3 * std::size_t{0xFFFFFFFFu}); }},
+    {"a grid of 0 bits at the largest offset", Status::ok,
+     [](Call& c) {
+       c.draw().grid = Grid{0, 15, 15, GridRounding::truncate};
+     }},
+    {"a grid of 12 bits", Status::ok,
+     [](Call& c) {
+       c.draw().grid = Grid{12, 0, 0, GridRounding::nearest_up};
+     }},
+    {"conservative with count alone", Status::ok,
+     [](Call& c) {
+       c.target.index = {};
+       c.target.depth = {};
+       c.target.barycentrics = {};
+       c.target.attributes = {};
+       c.draw().conservative = Conservative::inner;
+     }},
+};
+
+CaseResult accepted_case(const Fault& call_and_status) {
+  Call call;
+  call_and_status.spoil(call);
+  CaseResult result;
+  result.samples = kPixels;
+  if (const Status status = validate(call.target, call.draws); status != call_and_status.status) {
+    result.differences = 1;
+    result.finding = fmt::format("{}: validate returned \"{}\"", call_and_status.name, status_text(status));
+  }
+  return result;
+}
+
 CaseResult argument_case(const Fault& fault, const properties::Renderer& engine) {
   Call call;
   fault.spoil(call);
@@ -215,54 +341,102 @@ CaseResult argument_case(const Fault& fault, const properties::Renderer& engine)
   const Status checked = validate(call.target, call.draws);
   expect(checked == fault.status, fmt::format("validate returned \"{}\"", status_text(checked)));
   expect(call.bytes() == before, "a buffer was written to");
+  const int samples = call.target.samples;
+  if (fault.status == Status::target_size || samples < 1 || samples > 16) {
+    expect(sample_total(call.target) == 0, "sample_total is not 0");
+  }
   return result;
 }
 
-// The same for to_pixel: sizes that disagree, a null buffer, numbers that are not finite.
+// The same for to_pixel: numbers that are not finite, enumerators that there are not, sizes that disagree, null
+// buffers, buffers that overlap, and buffers that only touch.
 CaseResult viewport_argument_case(std::uint64_t number) {
-  const ClipVertex clip[2] = {{0, 0, 0, 1}, {1, 1, 1, 1}};
-  Vertex out[2] = {{9, 9, 9, 9}, {9, 9, 9, 9}};
+  // Room for the vertices and the results in one buffer: both are four floats.
+  static_assert(sizeof(ClipVertex) == sizeof(Vertex));
+  alignas(Vertex) std::byte bytes[4 * sizeof(Vertex)] = {};
+  const auto in_at = [&bytes](std::size_t i) { return std::span(reinterpret_cast<const ClipVertex*>(bytes) + i, 2); };
+  const auto out_at = [&bytes](std::size_t i) { return std::span(reinterpret_cast<Vertex*>(bytes) + i, 2); };
   Viewport viewport;
   float* const numbers[] = {&viewport.x,      &viewport.y,          &viewport.width,
                             &viewport.height, &viewport.near_depth, &viewport.far_depth};
-  std::span<const ClipVertex> in = clip;
-  std::span<Vertex> to = out;
-  if (number < 6) {
-    *numbers[number] = std::numeric_limits<float>::infinity();
-  } else if (number < 12) {
-    *numbers[number - 6] = std::numeric_limits<float>::quiet_NaN();
-  } else {
-    to = to.first(1);
+  std::span<const ClipVertex> in = in_at(0);
+  std::span<Vertex> out = out_at(2);
+  Status expected = Status::draw_vertices;
+  if (number < 12) {
+    using Limits = std::numeric_limits<float>;
+    *numbers[number % 6] = number < 6 ? Limits::infinity() : Limits::quiet_NaN();
+    expected = Status::viewport;
+  }
+  switch (number) {
+    case 12:
+      viewport.clip_depth = beyond(ClipDepth::minus_one_to_one), expected = Status::viewport;
+      break;
+    case 13:
+      viewport.clip_y = beyond(ClipY::down), expected = Status::viewport;
+      break;
+    case 14:
+      out = out.first(1);
+      break;
+    case 15:
+      in = null_span<const ClipVertex>(2);
+      break;
+    case 16:
+      out = null_span<Vertex>(2);
+      break;
+    case 17:
+      out = out_at(1);
+      break;
+    case 18:
+      in = in_at(1), out = out_at(0);
+      break;
+    case 19:
+      out = out_at(0);
+      break;
+    case 20:
+      in = in_at(2), out = out_at(0), expected = Status::ok;  // they touch
+      break;
+    case 21:
+      expected = Status::ok;  // they touch, the other way round
+      break;
+    case 22:
+      in = {}, out = {}, expected = Status::ok;
+      break;
+    default:
+      break;
   }
   CaseResult result;
   result.samples = 1;
-  const Status status = to_pixel(viewport, in, to);
-  if (status == Status::ok || (number < 12 && status != Status::viewport)) {
+  const Status status = to_pixel(viewport, in, out);
+  if (status != expected) {
     result.differences = 1;
-    result.finding = fmt::format("to_pixel with a bad argument returned \"{}\"", status_text(status));
+    result.finding = fmt::format("to_pixel, case {}, returned \"{}\"", number, status_text(status));
   }
-  for (const Vertex& vertex : out) {
-    if (vertex.x == 9 && vertex.y == 9 && vertex.z == 9 && vertex.w == 9) continue;
+  const bool written = std::any_of(std::begin(bytes), std::end(bytes), [](std::byte b) { return b != std::byte{0}; });
+  if (expected != Status::ok && written) {
     ++result.differences;
     result.finding = "to_pixel with a bad argument wrote to a vertex";
   }
   return result;
 }
 
-constexpr std::uint64_t kViewportFaults = 13;
+constexpr std::uint64_t kViewportCalls = 23;
 
 }  // namespace
 
 void add_argument_check(const Settings& settings, std::vector<Check>& checks) {
-  Check check = make_check("bad-arguments", "B2",
-                           "each kind of bad argument gives the status that names it, and nothing is written");
-  check.unit = "faults";
+  Check check =
+      make_check("bad-arguments", "B2",
+                 "each kind of bad argument gives the status that names it, and nothing is written; arguments "
+                 "at their limits are accepted");
+  check.unit = "calls";
   check.exhaustive = true;
-  check.prepare = [] { return std::size(kFaults) + kViewportFaults; };
+  check.prepare = [] { return std::size(kFaults) + std::size(kAccepted) + kViewportCalls; };
   check.cost = 1e-6;
   check.run = [&settings](std::uint64_t number) {
-    if (number >= std::size(kFaults)) return viewport_argument_case(number - std::size(kFaults));
-    return argument_case(kFaults[number], settings.engine);
+    if (number < std::size(kFaults)) return argument_case(kFaults[number], settings.engine);
+    number -= std::size(kFaults);
+    if (number < std::size(kAccepted)) return accepted_case(kAccepted[number]);
+    return viewport_argument_case(number - std::size(kAccepted));
   };
   checks.push_back(std::move(check));
 }

@@ -203,11 +203,13 @@ void add_certify_options(CLI::App& app, CertifyOptions& options) {
   app.add_option("--corpus", options.corpus, "Folder of cases/ and meshes/");
 }
 
+Level level_named(const std::string& name) {
+  return name == "quick" ? Level::quick : name == "standard" ? Level::standard : Level::thorough;
+}
+
 int run_certify(const CertifyOptions& options, const std::function<std::string()>& find_corpus) {
   Settings settings;
-  settings.level = options.level == "quick"      ? Level::quick
-                   : options.level == "standard" ? Level::standard
-                                                 : Level::thorough;
+  settings.level = level_named(options.level);
   settings.seed = options.seed;
   settings.engine = properties::engine_renderer();
   const Shard shard = shard_of(options.shard);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certify/adapters/rival.hpp"
+#include "certify/checks.hpp"
 
 namespace surefill::certify {
 
@@ -46,6 +47,8 @@ struct CertifyOptions {
   RivalChoice rival;
 };
 void add_certify_options(CLI::App& app, CertifyOptions& options);
+// "quick", "standard" or "thorough".
+Level level_named(const std::string& name);
 // `find_corpus` is asked where no corpus is named.
 int run_certify(const CertifyOptions& options, const std::function<std::string()>& find_corpus);
 

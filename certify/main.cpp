@@ -33,6 +33,7 @@
 #include "certify/report.hpp"
 #include "certify/rival_checks.hpp"
 #include "certify/zoo.hpp"
+#include "certify/zoo_rivals.hpp"
 #include "corpus/scene.hpp"
 #include "oracle/oracle.hpp"
 #include "properties/reduce.hpp"
@@ -241,13 +242,22 @@ int run_reduce(const ReduceOptions& options) {
 
 struct ZooArguments {
   ZooOptions options;
-  std::string markdown, picture;
+  std::string markdown, picture, level = "quick", corpus;
+  ZooRivalOptions rivals;
 };
 
 int run_zoo(const ZooArguments& arguments) {
   for (const std::string& file : {arguments.markdown, arguments.picture})
     if (!file.empty()) check_writable(file);
   catch_interrupts();
+  if (!arguments.rivals.plugin.empty()) {
+    ZooRivalOptions rivals = arguments.rivals;
+    rivals.settings.level = level_named(arguments.level);
+    rivals.settings.corpus = arguments.corpus.empty() ? find_corpus() : arguments.corpus;
+    rivals.jobs = arguments.options.jobs;
+    const bool told = zoo_rivals(rivals, print);
+    return interrupted() ? kInterrupted : told ? kGood : kBad;
+  }
   const KillMatrix matrix = kill_matrix(arguments.options);
   print(zoo_text(matrix));
   if (matrix.interrupted) return kInterrupted;
@@ -357,6 +367,16 @@ int run(int argc, char** argv) {
   zoo_command->add_option("--markdown", zoo_arguments.markdown, "Write the table there")
       ->needs(zoo_command->add_option("--picture", zoo_arguments.picture, "Draw the matrix there, as SVG"));
   zoo_command->add_option("--jobs", zoo_arguments.options.jobs, "Threads (all cores)")->check(CLI::Range(1, 4096));
+  CLI::Option* zoo_plugin =
+      zoo_command->add_option("--plugin", zoo_arguments.rivals.plugin,
+                              "libsurefill_zoo.so: certify each as a rival behind the adapter instead");
+  zoo_command->add_option("--only", zoo_arguments.rivals.only, "Names with * and ?, separated by commas")
+      ->delimiter(',')
+      ->needs(zoo_plugin);
+  zoo_command->add_option("--level", zoo_arguments.level, "Of certify: quick, standard or thorough (quick)")
+      ->check(CLI::IsMember({"quick", "standard", "thorough"}))
+      ->needs(zoo_plugin);
+  zoo_command->add_option("--corpus", zoo_arguments.corpus, "Folder of cases/ and meshes/")->needs(zoo_plugin);
 
   try {
     app.parse(argc, argv);
@@ -365,7 +385,8 @@ int run(int argc, char** argv) {
     throw UsageError(one_line(error.what()) + " (--help shows the usage)");
   }
   if (app.get_subcommands().empty()) {
-    throw UsageError("a subcommand is needed: render, certify, merge, replay, reduce, explain or zoo (--help shows the usage)");
+    throw UsageError(
+        "a subcommand is needed: render, certify, merge, replay, reduce, explain or zoo (--help shows the usage)");
   }
   if (render_command->parsed()) return run_render(render_options);
   if (certify_command->parsed()) return run_certify(certify_options, find_corpus);

@@ -303,6 +303,13 @@ bool plain(const Scene& scene) {
   });
 }
 
+// Does snapping move every edge by less than the 1/16 pixel that is left open around it?
+bool fine_grids(const Scene& scene) {
+  return std::all_of(scene.draws.begin(), scene.draws.end(), [](const corpus::SceneDraw& draw) {
+    return !draw.grid || draw.grid->bits > 4 || (draw.grid->bits == 4 && draw.grid->rounding != GridRounding::truncate);
+  });
+}
+
 CaseResult skipped() {
   CaseResult result;
   result.skipped = true;
@@ -405,7 +412,7 @@ CaseResult compare_rival(const Scene& original, Rival& rival, const RivalJudgeme
     const corpus::Frame frame(scene, {false, false, false, false, false});
     if (out_of_range(frame.draws())) return skipped();
     const bool certain = judgement.certain_only || leaves_open(frame.draws());
-    if (certain && !plain(scene)) return skipped();
+    if (certain && !(plain(scene) && fine_grids(scene))) return skipped();
     if (judgement.coverage && !certain && !projects_clearly(frame.draws())) return skipped();
     // Whether a fragment near depth 0 or 1 is clipped depends on how precise its depth is.
     for (const corpus::SceneDraw& draw : scene.draws) {

@@ -61,8 +61,24 @@ TEST_F(Adapter, TheEngineBehindTheAdapterIsExact) {
   EXPECT_TRUE(says("probing finds exact")) << out;
   EXPECT_EQ(certify_engine("chatter"), 0) << out;
   EXPECT_EQ(certify_engine("no-count"), 0) << out;
-  EXPECT_EQ(certify("--only 'values,scissor,partition-fan,samples-shifted' --plugin " SUREFILL_ENGINE_PLUGIN), 0)
+  EXPECT_EQ(certify("--plugin " SUREFILL_ENGINE_PLUGIN), 0) << out;
+}
+
+// A sample of the zoo through the public door; `surefill zoo --plugin` does it for all.
+TEST_F(Adapter, TheZooIsTold) {
+  const std::string zoo = "--plugin " SUREFILL_ZOO_PLUGIN " ";
+  EXPECT_EQ(certify(zoo + "--plugin-arguments exact"), 0) << out;
+  EXPECT_EQ(certify(zoo + "--plugin-arguments edges-inclusive --only partition-quads"), 1) << out;
+  EXPECT_LE(triangles_of("partition-quads"), 2u);
+  EXPECT_EQ(certify(zoo + "--plugin-arguments unicorn"), 1) << out;
+  EXPECT_TRUE(says("the zoo has no rasterizer of this name: unicorn")) << out;
+  EXPECT_EQ(surefill("zoo --jobs 1 " + zoo +
+                     "--only 'behind-*,float-edges,affine,depth-one-ulp,later-wins,samples-alike,"
+                     "grid-ignored,over-as-covered,box-culls,race'"),
+            0)
       << out;
+  EXPECT_TRUE(says("11 of 11 specimens not certified, 0 of 0 right rasterizers certified")) << out;
+  EXPECT_EQ(surefill("zoo " + zoo + "--only unicorn"), 2) << out;
 }
 
 TEST_F(Adapter, WhateverAPluginDoesIsAFinding) {
@@ -89,6 +105,18 @@ TEST_F(Adapter, WhateverAPluginDoesIsAFinding) {
     EXPECT_TRUE(says(finding)) << fault << "\n" << out;
     EXPECT_TRUE(says("NOT CERTIFIED")) << fault << "\n" << out;
   }
+}
+
+// A rival that reads clip space and its viewport, in both depth ranges, and one that takes y for down.
+TEST_F(Adapter, ClipSpaceIsTold) {
+  const std::string engine = "--plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments ";
+  for (const char* form : {"clip", "clip-minus-one"}) {
+    EXPECT_EQ(certify(engine + form), 0) << form << "\n" << out;
+    EXPECT_EQ(out.find("skip  model-random"), std::string::npos) << out;
+  }
+  EXPECT_EQ(certify("--only 'model,values' " + engine + "clip-y-down"), 1) << out;
+  EXPECT_EQ(certify("--only values " + engine + "clip-depth-unmapped"), 1) << out;
+  EXPECT_LE(triangles_of("values"), 2u);
 }
 
 TEST_F(Adapter, AModelIsFound) {
@@ -126,9 +154,9 @@ TEST_F(Adapter, PlainPythonAndItsThreeFaults) {
   EXPECT_EQ(certify("--command 'python3 " SUREFILL_PYTHON_RIVAL "'"), 0) << out;
   EXPECT_EQ(certify("--only partition-quads " + python_with("e == 0 and (", "e == 0 or (")), 1) << out;
   EXPECT_LE(triangles_of("partition-quads"), 2u);
-  EXPECT_EQ(certify("--only values " + python_with("[1, 1, 1])", "[v[3] for v in vertices])")), 1) << out;
+  EXPECT_EQ(certify("--only values " + python_with("[1, 1, 1])", "[p[3] for p in v])")), 1) << out;
   EXPECT_LE(triangles_of("values"), 2u);
-  EXPECT_EQ(certify("--only clear-samples " + python_with("in clip(vertices)]", "in vertices if w]")), 1) << out;
+  EXPECT_EQ(certify("--only clear-samples " + python_with("in clip(v)]", "in v if w]")), 1) << out;
   EXPECT_LE(triangles_of("clear-samples"), 2u);
 }
 

@@ -219,6 +219,37 @@ Verdict decide_bad_input(const corpus::Scene& scene, const Renderer& renderer) {
   return check.verdict();
 }
 
+// The header's stride: an attribute of its own array, packed or with gaps, gives the image that interleaved ones give.
+// What lies in the gaps is not looked at.
+Verdict decide_layout(const corpus::Scene& scene, const Renderer& renderer) {
+  Check check(renderer);
+  const corpus::Outputs outputs = outputs_of(scene);
+  const auto expected = check.draw(scene, outputs);
+  for (const std::uint32_t gap : {0u, 1u, 3u}) {
+    std::vector<std::vector<AttributeArray>> arrays(scene.draws.size());
+    std::vector<std::vector<float>> values;
+    values.reserve(scene.draws.size() * scene.attributes.size());
+    const auto actual = check.draw_changed(scene, outputs, [&](std::vector<Draw>& draws) {
+      for (std::size_t d = 0; d < draws.size(); ++d) {
+        for (const AttributeArray& from : draws[d].attributes) {
+          const std::uint32_t step = from.components + gap;
+          std::vector<float>& to =
+              values.emplace_back(draws[d].vertices.size() * step, std::numeric_limits<float>::quiet_NaN());
+          for (std::size_t v = 0; v < draws[d].vertices.size(); ++v)
+            for (std::size_t c = 0; c < from.components; ++c) to[v * step + c] = from.values[v * from.stride + c];
+          if (!to.empty()) to.resize(to.size() - gap);  // ends with the last vertex
+          arrays[d].push_back({to, from.components, gap == 0 ? 0 : step, from.interpolation});
+        }
+        draws[d].attributes = arrays[d];
+      }
+    });
+    if (expected && actual)
+      check.expect_same(gap == 0 ? "with packed attributes" : "with gaps between attributes", scene, *expected,
+                        *actual);
+  }
+  return check.verdict();
+}
+
 // V1: Z := -Z under the other test. What is stored is -z, and +0 where that is 0.
 Verdict decide_reversed(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
@@ -253,6 +284,8 @@ constexpr Property kProperties[] = {
      make_frame, decide_depth_write, true},
     {"bad-input", "B1", "a triangle with a NaN or an infinity changes nothing", false, true, 0, make_frame,
      decide_bad_input, true},
+    {"layout", "I2", "attributes packed, with gaps or interleaved give the same image", false, true, 0, make_frame,
+     decide_layout, true},
     {"reversed-depth", "V1", "GREATER with negated depth sees what LESS sees", false, true, 0, make_frame,
      decide_reversed},
 };

@@ -53,6 +53,10 @@ class Check {
   // The same, in buffers that hold this bit pattern before.
   std::optional<corpus::Image> draw_over(std::uint32_t garbage, const corpus::Scene& scene,
                                          const corpus::Outputs& outputs);
+  // The same, with the draws changed in ways that a scene has no words for.
+  using DrawChange = std::function<void(std::vector<Draw>& draws)>;
+  std::optional<corpus::Image> draw_changed(const corpus::Scene& scene, const corpus::Outputs& outputs,
+                                            const DrawChange& change);
 
   void looked_at(std::uint64_t samples) { verdict_.samples += samples; }
   void differs(const std::string& finding);
@@ -78,6 +82,8 @@ class Check {
   Verdict verdict() const { return verdict_; }
 
  private:
+  std::optional<corpus::Image> image_of(corpus::Frame& frame, std::span<const Draw> draws);
+
   const Renderer& renderer_;
   Verdict verdict_;
 };

@@ -77,7 +77,35 @@ corpus::Scene make_mode(std::uint64_t n, bool samples, bool grid, bool conservat
 corpus::Scene make_samples(std::uint64_t n) {
   return make_mode(n, true, false, false);
 }
+
+// Where the guard band cuts: long targets, corners around and beyond their far end, coarse grids.
+corpus::Scene make_far_grid(std::uint64_t n) {
+  Random random(n ^ 0x6A2D);
+  const bool high = random.one_in(2);
+  const auto far = [&random] {
+    const int reach = 1 << random.between(2, 20);
+    return static_cast<float>(kMaxTargetSize + random.between(-reach, reach));
+  };
+  std::array<Vertex, 3> triangle{};
+  for (Vertex& v : triangle) {
+    const float along = random.one_in(4) ? static_cast<float>(random.between(-100, kMaxTargetSize)) : far();
+    const float across = random.one_in(2) ? far() : static_cast<float>(random.between(-4000, 4000)) / 16;
+    v = {high ? across : along, high ? along : across, static_cast<float>(random.between(0, 8)) / 8, 1};
+    if (random.one_in(8)) v.w = static_cast<float>(random.between(-2, 0));
+  }
+  const int breadth = random.between(1, 3);
+  corpus::Scene scene =
+      high ? triangle_scene(breadth, kMaxTargetSize, triangle) : triangle_scene(kMaxTargetSize, breadth, triangle);
+  scene.draws[0].grid = Grid{random.between(0, 4), random.between(0, 15), random.between(0, 15),
+                             static_cast<GridRounding>(random.below(3))};
+  // The far end alone, where the cuts show.
+  scene.draws[0].scissor = high ? Scissor{0, kMaxTargetSize - 64, breadth, kMaxTargetSize}
+                                : Scissor{kMaxTargetSize - 64, 0, kMaxTargetSize, breadth};
+  return scene;
+}
+
 corpus::Scene make_grid(std::uint64_t n) {
+  if (n % 32 == 31) return make_far_grid(n / 32);
   return make_mode(n, n % 4 == 3, true, false);
 }
 corpus::Scene make_conservative(std::uint64_t n) {

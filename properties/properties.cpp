@@ -30,7 +30,19 @@ std::optional<corpus::Image> Check::draw_over(std::uint32_t garbage, const corpu
     for (std::vector<float>& buffer : image.attributes)
       std::fill(buffer.begin(), buffer.end(), std::bit_cast<float>(garbage));
   }
-  const Status status = renderer_(frame.target(), frame.draws());
+  return image_of(frame, frame.draws());
+}
+
+std::optional<corpus::Image> Check::draw_changed(const corpus::Scene& scene, const corpus::Outputs& outputs,
+                                                 const DrawChange& change) {
+  corpus::Frame frame(scene, outputs);
+  std::vector<Draw> draws(frame.draws().begin(), frame.draws().end());
+  change(draws);
+  return image_of(frame, draws);
+}
+
+std::optional<corpus::Image> Check::image_of(corpus::Frame& frame, std::span<const Draw> draws) {
+  const Status status = renderer_(frame.target(), draws);
   if (status != Status::ok) {
     differs("the renderer returned \"" + std::string(status_text(status)) + "\"");
     return std::nullopt;
@@ -248,7 +260,8 @@ std::uint64_t affordable_cases(const Property& property, std::uint64_t cases) {
   if (name == "equality-wide" || name == "target-size") times = 4;
   if (name == "small-world-eighth-pixel") times = 40;
   if (name == "small-world-half-pixel-4" || name == "small-world-quarter-pixel" ||
-      name == "small-world-homogeneous-rules")
+      name == "small-world-homogeneous-rules" || name == "small-world-conservative" ||
+      name == "small-world-conservative-homogeneous")
     times = 10;
   return std::max<std::uint64_t>(1, cases / times);
 }

@@ -28,6 +28,13 @@ Verdict decide_all(const corpus::Scene& scene, const Renderer& renderer) {
   return verdict;
 }
 
+Verdict decide_outputs(const corpus::Scene& scene, const Renderer& renderer) {
+  const Comparison comparison = compare(scene, oracle_renderer(), renderer, outputs_of(scene), 1);
+  Verdict verdict{comparison.samples, comparison.differences, {}};
+  if (!comparison.first.empty()) verdict.finding = describe(comparison.first[0], scene.samples);
+  return verdict;
+}
+
 // (X, Y, W) over {-1, 0, 1, 2}^3: in front of, through and behind the eye. Depth is one small integer a vertex.
 constexpr std::uint64_t kHomogeneous = 64 * 64 * 64;
 corpus::Scene make_homogeneous(std::uint64_t number) {
@@ -159,18 +166,16 @@ corpus::Scene make_eighth_2(std::uint64_t number) {
   return lattice_world(number, 8, 2);
 }
 
-// (X, Y, W) over {-1, 0, 1, 2}^3 under every rule: a draw for every third vertex, in a scissor of 3 x 3 pixels.
-constexpr std::uint64_t kHomogeneousRules = 64 * 64 * 8;
-corpus::Scene make_homogeneous_rules(std::uint64_t number) {
+// (X, Y, W) over {-1, 0, 1, 2}^3, first and second by the number: a draw for every third vertex, each in a scissor of 3
+// x 3 pixels.
+corpus::Scene homogeneous_world(std::uint64_t number, const corpus::SceneDraw& state) {
   constexpr int kCell = 3;
   corpus::Scene scene;
   scene.width = 64 * kCell;
   scene.height = kCell;
-  const auto rule = static_cast<FillRule>(digit(number, 8));
   const std::uint32_t first = digit(number, 64), second = digit(number, 64);
   for (std::uint32_t third = 0; third < 64; ++third) {
-    corpus::SceneDraw& draw = scene.draws.emplace_back();
-    draw.fill_rule = rule;
+    corpus::SceneDraw& draw = scene.draws.emplace_back(state);
     const int left = static_cast<int>(third) * kCell;
     draw.scissor = Scissor{left, 0, left + kCell, kCell};
     for (const std::uint32_t point : {first, second, third}) {
@@ -178,6 +183,59 @@ corpus::Scene make_homogeneous_rules(std::uint64_t number) {
       draw.vertices.push_back({x + w * static_cast<float>(left), static_cast<float>(point >> 2 & 3u) - 1, 0, w, {}});
     }
     draw.triangles.push_back({{0, 1, 2}, std::nullopt});
+  }
+  return scene;
+}
+
+constexpr std::uint64_t kHomogeneousRules = 64 * 64 * 8;
+corpus::Scene make_homogeneous_rules(std::uint64_t number) {
+  corpus::SceneDraw state;
+  state.fill_rule = static_cast<FillRule>(digit(number, 8));
+  return homogeneous_world(number, state);
+}
+
+constexpr std::uint64_t kHomogeneousConservative = 64 * 64 * 2;
+corpus::Scene make_homogeneous_conservative(std::uint64_t number) {
+  corpus::SceneDraw state;
+  state.conservative = digit(number, 2) == 0 ? Conservative::over : Conservative::inner;
+  return homogeneous_world(number, state);
+}
+
+// A conservative draw for every third vertex on the half-pixel lattice of 3 x 3 pixels, each in a scissor of its own.
+constexpr std::uint64_t kConservative = 49 * 49 * 2;
+corpus::Scene make_conservative(std::uint64_t number) {
+  constexpr int kCell = 3, kSide = 7, kPoints = kSide * kSide;
+  corpus::Scene scene;
+  scene.width = kCell * kPoints;
+  scene.height = kCell;
+  const Conservative mode = digit(number, 2) == 0 ? Conservative::over : Conservative::inner;
+  const int first = static_cast<int>(digit(number, kPoints)), second = static_cast<int>(digit(number, kPoints));
+  for (int third = 0; third < kPoints; ++third) {
+    corpus::SceneDraw& draw = scene.draws.emplace_back();
+    draw.conservative = mode;
+    const int left = third * kCell;
+    draw.scissor = Scissor{left, 0, left + kCell, kCell};
+    for (const int point : {first, second, third})
+      draw.vertices.push_back({static_cast<float>(point % kSide) / 2 + static_cast<float>(left),
+                               static_cast<float>(point / kSide) / 2,
+                               0,
+                               1,
+                               {}});
+    draw.triangles.push_back({{0, 1, 2}, std::nullopt});
+  }
+  return scene;
+}
+
+// (X, Y, W) over {-1, 0, 1, 2}^3 snapped to whole pixels, which flips and fattens triangles, with depths and an
+// attribute of each interpolation.
+corpus::Scene make_snapped(std::uint64_t number) {
+  corpus::Scene scene = make_homogeneous(number);
+  scene.width = scene.height = 3;
+  scene.draws[0].grid = Grid{0, 0, 0, GridRounding::nearest_even};
+  scene.attributes = {{"a", 1, Interpolation::noperspective}, {"b", 1, Interpolation::perspective}};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const float value = static_cast<float>(i * i) + 1;
+    scene.draws[0].vertices[i].attributes = {value, value};
   }
   return scene;
 }
@@ -218,6 +276,24 @@ bool covers(const std::array<Whole, 3>& edges, int determinant, int x, int y, Fi
   });
 }
 
+// M4 for W = 1, by separating axes: two convex polygons are apart exactly if they are so along a side's normal.
+bool covers_square(const std::array<Whole, 3>& m, const std::array<Whole, 3>& edges, int determinant, int x, int y,
+                   Conservative mode) {
+  const Whole corners[] = {{8 * x, 8 * y, 8}, {8 * x + 8, 8 * y, 8}, {8 * x + 8, 8 * y + 8, 8}, {8 * x, 8 * y + 8, 8}};
+  const auto within = [&](const Whole& e) {
+    return [&e, determinant](const Whole& corner) { return sign_of(value_at(e, corner)) * determinant >= 0; };
+  };
+  if (mode == Conservative::inner)
+    return std::all_of(edges.begin(), edges.end(),
+                       [&](const Whole& e) { return std::all_of(std::begin(corners), std::end(corners), within(e)); });
+  for (const std::size_t axis : {std::size_t{0}, std::size_t{1}}) {
+    const auto [low, high] = std::minmax({m[0][axis], m[1][axis], m[2][axis]});
+    if (high < corners[0][axis] || low > corners[2][axis]) return false;
+  }
+  return std::all_of(edges.begin(), edges.end(),
+                     [&](const Whole& e) { return std::any_of(std::begin(corners), std::end(corners), within(e)); });
+}
+
 Verdict decide_by_integers(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   std::vector<std::uint32_t> expected(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
@@ -228,6 +304,7 @@ Verdict decide_by_integers(const corpus::Scene& scene, const Renderer& renderer)
       for (std::size_t i = 0; i < 3; ++i) {
         const auto whole = in_eighths(t[i]);
         if (!whole) return check.verdict();  // a simpler case, no more of this world
+        if (draw.conservative != Conservative::none && (*whole)[2] != 8) return check.verdict();
         m[i] = *whole;
       }
       const std::array<Whole, 3> edges = {edge_between(m[1], m[2]), edge_between(m[2], m[0]), edge_between(m[0], m[1])};
@@ -240,11 +317,12 @@ Verdict decide_by_integers(const corpus::Scene& scene, const Renderer& renderer)
           int& begin = axis == 0 ? box.x0 : box.y0;
           int& end = axis == 0 ? box.x1 : box.y1;
           begin = std::max(begin, static_cast<int>(low / 8) - 1);
-          end = std::min(end, static_cast<int>(high / 8) + 1);
+          end = std::min(end, static_cast<int>(high / 8) + 2);
         }
       for (int y = std::max(0, box.y0); y < std::min(scene.height, box.y1); ++y)
         for (int x = std::max(0, box.x0); x < std::min(scene.width, box.x1); ++x)
-          if (covers(edges, determinant, x, y, draw.fill_rule))
+          if (draw.conservative == Conservative::none ? covers(edges, determinant, x, y, draw.fill_rule)
+                                                      : covers_square(m, edges, determinant, x, y, draw.conservative))
             ++expected[static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) +
                        static_cast<std::size_t>(x)];
     }
@@ -290,6 +368,16 @@ constexpr Property kProperties[] = {
     {"small-world-eighth-pixel", "C1-C3",
      "each of the 193,100,552 triangles on the eighth-pixel lattice of 2 x 2 under the eight fill rules, by integers",
      false, true, lattice_cases(8, 2), make_eighth_2, decide_by_integers},
+    {"small-world-conservative", "M4",
+     "each of the 117,649 triangles on the half-pixel lattice of 3 x 3, over and inner, by integers and separating "
+     "axes",
+     false, true, kConservative, make_conservative, decide_by_integers},
+    {"small-world-conservative-homogeneous", "M4",
+     "each of the 262,144 triangles over {-1, 0, 1, 2}^3 in (X, Y, W), over and inner, is the oracle's on 3 x 3", true,
+     true, kHomogeneousConservative, make_homogeneous_conservative, decide_outputs},
+    {"small-world-grid", "G1, G2",
+     "every triangle over {-1, 0, 1, 2}^3 in (X, Y, W), snapped to whole pixels, is the oracle's on 3 x 3", true, true,
+     kHomogeneous, make_snapped, decide_outputs},
 };
 
 }  // namespace

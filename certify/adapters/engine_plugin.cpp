@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certify/adapter.h"
+#include "certify/adapters/plugin_frame.hpp"
 #include "surefill/surefill.hpp"
 
 namespace {
@@ -37,26 +38,6 @@ bool has_steep_edge(const surefill_adapter_scene& scene) {
   return false;
 }
 
-Draw draw_of(const surefill_adapter_draw& from, const std::vector<AttributeArray>& attributes) {
-  Draw draw;
-  draw.vertices = {reinterpret_cast<const Vertex*>(from.pixel), from.vertex_count};
-  draw.indices = {from.indices, std::size_t{3} * from.triangle_count};
-  draw.identifiers = {from.identifiers, from.triangle_count};
-  draw.attributes = attributes;
-  draw.fill_rule = static_cast<FillRule>(from.fill_rule);
-  draw.front_face = static_cast<FrontFace>(from.front_face);
-  draw.cull = static_cast<Cull>(from.cull);
-  draw.depth_mode = static_cast<DepthMode>(from.depth_mode);
-  draw.depth_write = from.depth_write != 0;
-  draw.conservative = static_cast<Conservative>(from.conservative);
-  if (from.has_scissor) draw.scissor = Scissor{from.scissor[0], from.scissor[1], from.scissor[2], from.scissor[3]};
-  if (from.has_grid) {
-    draw.grid = Grid{static_cast<int>(from.grid_bits), static_cast<int>(from.grid_offset_x),
-                     static_cast<int>(from.grid_offset_y), static_cast<GridRounding>(from.grid_rounding)};
-  }
-  return draw;
-}
-
 // The fault on this scene, before anything is drawn.
 int fault_before(Instance& instance, const surefill_adapter_scene& scene, const surefill_adapter_image& image,
                  std::size_t total) {
@@ -80,44 +61,40 @@ int fault_before(Instance& instance, const surefill_adapter_scene& scene, const 
   return SUREFILL_ADAPTER_OK;
 }
 
+// The vertices of a draw by way of clip space; a rasterizer that has not read the header gets it wrong.
+std::vector<Vertex> from_clip_space(const surefill_adapter_draw& from, const std::string& fault) {
+  Viewport viewport;
+  viewport.x = from.viewport_x;
+  viewport.y = from.viewport_y;
+  viewport.width = from.viewport_width;
+  viewport.height = from.viewport_height;
+  viewport.near_depth = from.viewport_near;
+  viewport.far_depth = from.viewport_far;
+  viewport.clip_depth = static_cast<ClipDepth>(from.viewport_depth_range);
+  if (fault == "clip-y-down") viewport.clip_y = ClipY::down;
+  if (fault == "clip-depth-unmapped") viewport.clip_depth = ClipDepth::zero_to_one;
+  std::vector<Vertex> vertices(from.vertex_count);
+  (void)to_pixel(viewport, {reinterpret_cast<const ClipVertex*>(from.clip), from.vertex_count}, vertices);
+  return vertices;
+}
+
 int draw(void* handle, const surefill_adapter_scene* scene, const surefill_adapter_image* image) {
   auto& instance = *static_cast<Instance*>(handle);
-  std::vector<std::vector<AttributeArray>> attributes(scene->draw_count);
-  std::vector<Draw> draws;
-  std::vector<AttributeTarget> attribute_targets;
   const std::size_t total = std::size_t{scene->width} * scene->height * scene->samples;
-  for (std::uint32_t d = 0; d < scene->draw_count; ++d) {
-    const surefill_adapter_draw& from = scene->draws[d];
-    for (std::uint32_t k = 0; k < scene->attribute_count; ++k) {
-      const surefill_adapter_attribute& a = from.attributes[k];
-      attributes[d].push_back({{a.values, std::size_t{a.components} * from.vertex_count},
-                               a.components,
-                               a.components,
-                               static_cast<Interpolation>(a.interpolation)});
-      if (d == 0 && image->attributes) {
-        attribute_targets.push_back({{image->attributes[k], a.components * total}, a.components});
-      }
-    }
-    draws.push_back(draw_of(from, attributes[d]));
-  }
   const bool shows = has_steep_edge(*scene);
   if (shows) {
     if (const int status = fault_before(instance, *scene, *image, total)) return status;
   }
-  Target target;
-  target.width = static_cast<int>(scene->width);
-  target.height = static_cast<int>(scene->height);
-  target.samples = static_cast<int>(scene->samples);
-  target.depth_test = static_cast<DepthTest>(scene->depth_test);
-  target.attribute_location = static_cast<AttributeLocation>(scene->attribute_location);
-  if (image->count) target.count = {image->count, total};
-  if (image->index) target.index = {image->index, total};
-  if (image->depth && instance.fault != "unwritten") target.depth = {image->depth, total};
-  if (image->barycentrics) target.barycentrics = {image->barycentrics, 3 * total};
-  if (scene->initial_depth) target.initial_depth = {scene->initial_depth, total};
-  target.attributes = attribute_targets;
+  adapters::PluginFrame frame(*scene, *image);
+  std::vector<std::vector<Vertex>> mapped;
+  for (std::uint32_t d = 0; d < scene->draw_count && instance.fault.rfind("clip", 0) == 0; ++d) {
+    mapped.push_back(from_clip_space(scene->draws[d], instance.fault));
+    frame.draws()[d].vertices = mapped.back();
+    frame.draws()[d].culling_box.reset();
+  }
+  if (instance.fault == "unwritten") frame.target().depth = {};
   if (instance.fault == "chatter") std::puts("drawing");
-  const Status status = render(target, draws);
+  const Status status = render(frame.target(), frame.draws());
   if (instance.fault == "nan" && shows && image->depth) image->depth[0] = std::numeric_limits<float>::quiet_NaN();
   if (instance.fault == "forgetful" && image->count && ++instance.draws % 7 == 0) image->count[0] += 1;
   if (status == Status::ok) return SUREFILL_ADAPTER_OK;
@@ -142,8 +119,12 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
                   SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;
   if (fault == "no-count") info->outputs &= ~static_cast<std::uint32_t>(SUREFILL_ADAPTER_COUNT);
   if (fault == "bad-outputs") info->outputs = 1u << 20;
-  info->features = (1u << 19) - 1;
+  info->features = adapters::kAllFeatures;
   info->model.kind = SUREFILL_ADAPTER_MODEL_EXACT;
+  if (fault.rfind("clip", 0) == 0) info->form = SUREFILL_ADAPTER_FORM_CLIP;
+  if (fault == "clip-minus-one" || fault == "clip-depth-unmapped") {
+    info->model.depth_range = SUREFILL_ADAPTER_MINUS_ONE_TO_ONE;
+  }
   if (fault == "wrong-model") {
     info->model.kind = SUREFILL_ADAPTER_MODEL_GRID;
     info->model.grid_bits = 8;

@@ -170,7 +170,8 @@ std::vector<double> probe_distances() {
   return distances;
 }
 
-constexpr int kProbesAScene = 32;  // positions below 32 in steps of 2^-18 are float32
+// Positions below 32 in steps of 2^-18 are float32, and so are they in clip space.
+constexpr int kProbesAScene = 32;
 
 struct Probe {
   double edge, sample;
@@ -186,7 +187,7 @@ std::vector<Probe> probe_axis(Rival& rival, bool vertical_edges) {
     std::vector<std::array<Point, 3>> triangles;
     for (std::size_t i = 0; i < n; ++i) {
       const double sample = static_cast<double>(i) + 0.5;
-      const auto edge = static_cast<float>(sample + distances[begin + i]), apex = static_cast<float>(sample + 0.7);
+      const auto edge = static_cast<float>(sample + distances[begin + i]), apex = static_cast<float>(sample + 0.703125);
       triangles.push_back({{{edge, -3}, {edge, 4}, {apex, 0.5f}}});
       if (!vertical_edges) triangles.back() = {{{-3, edge}, {4, edge}, {0.5f, apex}}};
       probes.push_back({edge, sample, false});
@@ -234,7 +235,8 @@ Grid best_of(Rival& rival, std::vector<Grid> grids, FillRule rule) {
   std::sort(grids.begin(), grids.end(), [&rank](const Grid& a, const Grid& b) { return rank(a) < rank(b); });
   std::vector<std::size_t> mismatches(grids.size(), 0);
   properties::Random random(0x5EED);
-  const auto coordinate = [&random] { return static_cast<float>(8 * random.unit()); };
+  // Between the positions of the finest grid, and exact in clip space.
+  const auto coordinate = [&random] { return static_cast<float>(random.between(0, 8 << 16)) * 0x1p-16f; };
   for (int n = 0; n < 24 && grids.size() > 1; ++n) {
     std::vector<std::array<Point, 3>> triangles;
     for (int t = 0; t < 12; ++t) {

@@ -69,6 +69,18 @@ Target with_outputs(Target target, std::uint32_t outputs) {
   return target;
 }
 
+// The adapter shows a rival the attributes that are asked for; B1 drops triangles for the others, too.
+void skip_unseen_attributes(std::span<const Draw> draws, std::size_t seen) {
+  for (const Draw& draw : draws) {
+    for (std::size_t k = seen; k < draw.attributes.size(); ++k) {
+      const std::span<const float> values = draw.attributes[k].values;
+      if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); })) {
+        throw RivalSkips("attributes with a NaN or an infinity that are not asked for");
+      }
+    }
+  }
+}
+
 bool asks_for_nothing(const Target& target) {
   return target.count.empty() && target.index.empty() && target.depth.empty() && target.barycentrics.empty() &&
          target.attributes.empty();
@@ -170,14 +182,7 @@ void Rival::draw_once(Target target, std::span<const Draw> draws) {
 }
 
 void Rival::add_up_counts(const Target& target, std::span<const Draw> draws) {
-  for (const Draw& draw : draws) {
-    for (const AttributeArray& array : draw.attributes) {
-      const bool finite =
-          std::all_of(array.values.begin(), array.values.end(), [](float v) { return std::isfinite(v); });
-      // Drawn alone they have no attributes, and B1 would not drop them.
-      if (!finite) throw RivalSkips("attributes with a NaN, without a count");
-    }
-  }
+  skip_unseen_attributes(draws, 0);  // drawn alone they have no attributes
   const std::size_t total = sample_total(target);
   std::fill(target.count.begin(), target.count.end(), 0u);
   const bool by_index = (info_.outputs & SUREFILL_ADAPTER_INDEX) != 0;
@@ -207,6 +212,7 @@ void Rival::draw(const Target& target, std::span<const Draw> draws) {
   const std::string lacking = what_is_lacking(target, under, info_);
   if (!lacking.empty()) throw RivalSkips(lacking);
   const Target asked = with_outputs(target, info_.outputs);
+  skip_unseen_attributes(under, asked.attributes.size());
   const bool conservative =
       std::any_of(under.begin(), under.end(), [](const Draw& draw) { return draw.conservative != Conservative::none; });
   std::size_t triangles = 0;

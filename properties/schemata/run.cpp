@@ -7,69 +7,70 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <bit>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <numeric>
 #include <string>
 #include <vector>
 
+#include "certify/checks.hpp"
 #include "mutant.hpp"
-#include "oracle/oracle.hpp"
-#include "properties/generators.hpp"
-#include "properties/properties.hpp"
+#include "properties/internal_bounds.hpp"
 
 namespace surefill {
 namespace {
 
-using properties::Property;
-
-// S3, which no property sees, since scenes are mapped to pixels before they are drawn.
-bool viewport_differs(std::uint64_t n) {
-  properties::Random random(n);
-  const auto number = [&] {
-    const float small = static_cast<float>(random.between(-64, 64)) / 16;
-    return random.one_in(3) ? std::bit_cast<float>(static_cast<std::uint32_t>(random.bits())) : small;
+// Every check of the command at its quick level but those that draw whole meshes, which take seconds a case; and the
+// test of the engine's inner promises.
+std::vector<certify::Check> suite(const certify::Settings& settings) {
+  std::vector<certify::Check> checks = certify::list_checks(settings);
+  std::erase_if(checks, [](const certify::Check& check) { return check.name.rfind("mesh-", 0) == 0; });
+  certify::Check& bounds = checks.emplace_back(certify::make_check("internal-bounds", "", "its test"));
+  bounds.prepare = [] { return std::uint64_t{1} << 32; };
+  bounds.run = [](std::uint64_t number) {
+    certify::CaseResult result;
+    result.differences = properties::InternalBounds(number).broken().empty() ? 0 : 1;
+    return result;
   };
-  Viewport viewport{};
-  for (float* f :
-       {&viewport.x, &viewport.y, &viewport.width, &viewport.height, &viewport.near_depth, &viewport.far_depth})
-    do *f = number();
-    while (!(*f - *f == 0));
-  viewport.clip_depth = static_cast<ClipDepth>(random.below(2));
-  viewport.clip_y = static_cast<ClipY>(random.below(2));
-  const ClipVertex vertex{number(), number(), number(), number()};
-  Vertex expected{}, actual{};
-  oracle::to_pixel(viewport, {&vertex, 1}, {&expected, 1});
-  if (to_pixel(viewport, {&vertex, 1}, {&actual, 1}) != Status::ok) return true;
-  const float pairs[][2] = {
-      {expected.x, actual.x}, {expected.y, actual.y}, {expected.z, actual.z}, {expected.w, actual.w}};
-  for (const auto& [e, a] : pairs)
-    if (std::bit_cast<std::uint32_t>(e) != std::bit_cast<std::uint32_t>(a) && (e == e || a == a)) return true;
-  return false;
+  return checks;
 }
 
-// In the child: the name of what kills the mutant, or nothing after so many seconds.
-std::string first_kill(double seconds) {
-  const auto start = std::chrono::steady_clock::now();
-  const properties::Renderer engine = properties::engine_renderer();
-  for (std::uint64_t round = 0;; ++round) {
-    for (const Property& property : properties::all_properties()) {
-      if (std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count() > seconds) return {};
-      // Costly properties, less often.
-      const std::uint64_t every = 50 / properties::affordable_cases(property, 50);
-      if (round % every != every - 1) continue;
-      alarm(10);  // a case that never ends ends the process
-      if (property.decide(properties::sampled_case(property, round), engine).differences != 0) return property.name;
+// About the golden part of `cases`, and prime to it: so many steps on at a time, modulo `cases`, come by all of them.
+std::uint64_t step_through(std::uint64_t cases) {
+  auto step = static_cast<std::uint64_t>(0.618 * static_cast<double>(cases)) + 1;
+  while (std::gcd(step, cases) != 1) ++step;
+  return step;
+}
+
+// In the child: the name of the check that kills the mutant, or nothing after so many seconds. The checks take turns, a
+// hundredth of a second or one case at a time; sampled cases go on, and those of a list come well mixed, again and
+// again.
+std::string first_kill(const std::vector<certify::Check>& checks, const std::vector<std::uint64_t>& cases,
+                       double seconds) {
+  using Clock = std::chrono::steady_clock;
+  const auto since = [](Clock::time_point start) {
+    return std::chrono::duration<double>(Clock::now() - start).count();
+  };
+  const Clock::time_point start = Clock::now();
+  std::vector<std::uint64_t> next(checks.size());
+  for (;;) {
+    for (std::size_t i = 0; i < checks.size(); ++i) {
+      const Clock::time_point turn = Clock::now();
+      do {
+        if (since(start) > seconds) return {};
+        alarm(10);  // a case that never ends ends the process
+        const std::uint64_t n = next[i]++;
+        const std::uint64_t number = checks[i].exhaustive ? n % cases[i] * step_through(cases[i]) % cases[i] : n;
+        if (checks[i].run(number).differences != 0) return checks[i].name;
+      } while (since(turn) < 0.01);
     }
-    for (std::uint64_t n = 0; n < 20; ++n)
-      if (viewport_differs(20 * round + n)) return "viewport";
   }
 }
 
-void run(unsigned number, double seconds) {
+void run(const std::vector<certify::Check>& checks, const std::vector<std::uint64_t>& cases, unsigned number,
+         double seconds) {
   int ends[2];
   if (pipe(ends) != 0) std::exit(2);
   const pid_t child = fork();
@@ -79,7 +80,7 @@ void run(unsigned number, double seconds) {
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     mutant::number = number;
-    const std::string by = first_kill(seconds);
+    const std::string by = first_kill(checks, cases, seconds);
     (void)!write(ends[1], by.data(), by.size());
     _exit(by.empty() ? 0 : 1);
   }
@@ -106,6 +107,13 @@ int main(int argc, char** argv) {
     std::fputs("usage: schemata SECONDS NUMBER...\n", stderr);
     return 2;
   }
+  surefill::certify::Settings settings;
+  settings.corpus = SUREFILL_CORPUS;
+  settings.engine = surefill::properties::engine_renderer();
+  settings.support = surefill::certify::probe_support(settings.engine);
+  const std::vector<surefill::certify::Check> checks = surefill::suite(settings);
+  std::vector<std::uint64_t> cases;
+  for (const surefill::certify::Check& check : checks) cases.push_back(check.prepare());
   for (int i = 2; i < argc; ++i)
-    surefill::run(static_cast<unsigned>(std::strtoul(argv[i], nullptr, 10)), std::atof(argv[1]));
+    surefill::run(checks, cases, static_cast<unsigned>(std::strtoul(argv[i], nullptr, 10)), std::atof(argv[1]));
 }

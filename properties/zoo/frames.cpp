@@ -2,6 +2,7 @@
 //
 // Faults of frames: order, races, state, several draws, bad input, what is left over from before.
 #include <limits>
+#include <utility>
 
 #include "properties/zoo/tools.hpp"
 
@@ -51,6 +52,22 @@ Status not_cleared(const Target& target, Draws draws) {
     for (std::size_t s = 0; s < before.size(); ++s)
       if (std::isinf(target.depth[s])) target.depth[s] = before[s];
   return status;
+}
+
+// Attributes in arrays that `change` alters: their values for a number of vertices, and their stride.
+template <class Change>
+Status with_arrays(const Target& target, Draws draws, const Change& change) {
+  std::vector<std::vector<float>> values;
+  std::vector<std::vector<AttributeArray>> arrays;
+  return with_state(target, draws, [&](Draw& draw) {
+    std::vector<AttributeArray>& own = arrays.emplace_back(draw.attributes.begin(), draw.attributes.end());
+    for (AttributeArray& a : own) {
+      std::vector<float> copy(a.values.begin(), a.values.end());
+      change(copy, a.stride, a.components, draw.vertices.size());
+      a.values = values.emplace_back(std::move(copy));
+    }
+    draw.attributes = own;
+  });
 }
 
 // Until a first bad triangle, and nothing of the draw after it.
@@ -209,17 +226,21 @@ constexpr Specimen kSpecimens[] = {
      }},
     {"bad-attributes-drawn", "a NaN or an infinity in an attribute is read as 0", "", "bad-input",
      [](const Target& t, Draws d) {
-       std::vector<std::vector<float>> values;
-       std::vector<std::vector<AttributeArray>> arrays;
-       return with_state(t, d, [&](Draw& draw) {
-         std::vector<AttributeArray>& own = arrays.emplace_back(draw.attributes.begin(), draw.attributes.end());
-         for (AttributeArray& a : own) {
-           std::vector<float>& finite = values.emplace_back(a.values.begin(), a.values.end());
-           for (float& u : finite) u = std::isfinite(u) ? u : 0;
-           a.values = finite;
-         }
-         draw.attributes = own;
+       return with_arrays(t, d, [](std::vector<float>& values, std::uint32_t&, std::uint32_t, std::size_t) {
+         for (float& u : values) u = std::isfinite(u) ? u : 0;
        });
+     }},
+    {"stride-ignored", "attributes are read as if packed", "", "layout",
+     [](const Target& t, Draws d) {
+       return with_arrays(t, d, [](auto&, std::uint32_t& stride, std::uint32_t, std::size_t) { stride = 0; });
+     }},
+    {"stride-zero", "a stride of 0 is meant: all vertices have the values of the first", "", "layout",
+     [](const Target& t, Draws d) {
+       return with_arrays(
+           t, d, [](std::vector<float>& values, std::uint32_t& stride, std::uint32_t components, std::size_t vertices) {
+             if (stride != 0) return;
+             for (std::size_t i = components; i < components * vertices; ++i) values[i] = values[i - components];
+           });
      }},
     {"stops-at-bad-input", "the triangles after one that is not finite are lost", "", "bad-input", stops_at_bad_input},
     {"depth-without-index", "depth alone is asked for: the test is forgotten", "", "outputs",

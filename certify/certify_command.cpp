@@ -61,7 +61,8 @@ std::filesystem::path driver_plugin(const std::string& adapter, const std::files
   for (const auto& found : {folder / name, folder.parent_path() / "lib" / "surefill" / name}) {
     if (std::filesystem::is_regular_file(found, error)) return found;
   }
-  throw UsageError("--adapter " + adapter + ": " + name + " was not built: its development packages are missing");
+  throw UsageError("--adapter " + adapter + ": " + name + " was not built; `./dev certify --adapter " + adapter +
+                   "` installs what that needs");
 }
 
 Shard shard_of(const std::string& text) {

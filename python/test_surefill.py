@@ -117,7 +117,13 @@ class Pictures(unittest.TestCase):
 
 
 class WrongCalls(unittest.TestCase):
-    """Each raises an exception that names the argument."""
+    """Each raises an exception that names the argument, and writes to none."""
+
+    def setUp(self):
+        self.before = POSITIONS.tobytes(), TRIANGLES.tobytes()
+
+    def tearDown(self):
+        self.assertEqual((POSITIONS.tobytes(), TRIANGLES.tobytes()), self.before)
 
     def wrong(self, error, name, function, *arguments, **options):
         self.assertRaisesRegex(error, f"^{name}: ", function, *arguments, **options)

@@ -23,7 +23,8 @@
 
 namespace surefill::properties {
 
-// Random scenes a property: SUREFILL_TEXTBOOK_SCENES, or so many.
+// Random scenes a property: SUREFILL_TEXTBOOK_SCENES, or so many. How often something must have been seen, so that a
+// test is not empty, is a share of them.
 inline std::uint64_t textbook_scenes(std::uint64_t usual) {
   const char* asked = std::getenv("SUREFILL_TEXTBOOK_SCENES");
   return asked != nullptr ? std::strtoull(asked, nullptr, 10) : usual;
@@ -34,6 +35,7 @@ inline std::uint64_t textbook_scenes(std::uint64_t usual) {
 enum class Cases { random, corpus };
 inline void for_each_case(std::uint64_t count, const std::function<std::string(std::uint64_t)>& decide,
                           Cases cases = Cases::random) {
+  ASSERT_GT(count, 0u) << "no cases: SUREFILL_TEXTBOOK_SCENES is no number, or the corpus is empty";
   std::atomic<std::uint64_t> next{0}, findings{0};
   std::mutex mutex;
   std::uint64_t first = count;

@@ -57,9 +57,9 @@ TEST(TextbookPoints, CoverWhatTheOracleSays) {
     }
     return decide_points(c, any_size(random), hits);
   });
-  EXPECT_GT(hits.points, 1000u);
-  EXPECT_GT(hits.lines, 1000u);
-  EXPECT_GT(hits.wide, 1000u);
+  EXPECT_GT(hits.points, textbook_scenes(1'000));
+  EXPECT_GT(hits.lines, textbook_scenes(1'000));
+  EXPECT_GT(hits.wide, textbook_scenes(1'000));
   const std::vector<TriangleCase> cases = corpus_triangles(1 << 10, false);
   const auto decide = [&](std::uint64_t n) { return decide_points(cases[n], static_cast<float>(1 + n % 4), hits); };
   for_each_case(cases.size(), decide, Cases::corpus);

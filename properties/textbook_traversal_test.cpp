@@ -82,7 +82,7 @@ TEST(TextbookTraversal, FindsTheOraclesSamplesOnTheCorpus) {
 
 // Long scan lines, large tiles, accepted tiles: what 16 x 16 targets do not reach.
 TEST(TextbookTraversal, FindsTheOraclesSamplesOnLargerTargets) {
-  for_each_case(textbook_scenes(60'000) / 300, [](std::uint64_t n) {
+  for_each_case((textbook_scenes(60'000) + 299) / 300, [](std::uint64_t n) {
     TriangleCase c = random_triangle(n, false);
     Random random(n);
     c.width = random.between(100, 300), c.height = random.between(100, 300);

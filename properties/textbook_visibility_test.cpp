@@ -180,7 +180,7 @@ TEST(TextbookVisibility, ThePainterSeesWhatTheDepthBufferSees) {
   PainterTotals totals;
   for_each_case(textbook_scenes(3'000),
                 [&totals](std::uint64_t n) { return decide_painter(random_crowd(n, 8, 5), totals); });
-  EXPECT_GT(totals.cuts, 100u);
+  EXPECT_GT(totals.cuts, textbook_scenes(3'000) / 30);
   EXPECT_GT(totals.compared, 10 * totals.ties);
   const std::vector<Crowd> crowds = corpus_crowds(1 << 10, 32);
   const auto decide = [&](std::uint64_t n) { return decide_painter(crowds[n], totals); };

@@ -65,6 +65,16 @@ static surefill_status render(Call* c) {
                          &c->options, &c->statistics);
 }
 
+static surefill_status validate(Call* c) {
+  return surefill_validate(c->null_target ? NULL : &c->target, c->null_draws ? NULL : c->draws, c->draw_count);
+}
+
+/* What surefill_validate does not see. */
+static int of_options(surefill_status status) {
+  return status == SUREFILL_OPTIONS_STRUCT_SIZE || status == SUREFILL_STATISTICS_STRUCT_SIZE ||
+         status == SUREFILL_OPTIONS_THREADS || status == SUREFILL_OPTIONS_PATH;
+}
+
 static void null_target(Call* c) {
   c->null_target = 1;
 }
@@ -307,6 +317,7 @@ static void check_render(void) {
     kCases[i].spoil(&call);
     memcpy(&before, &call, sizeof call);
     check(kCases[i].name, render(&call) == kCases[i].expected);
+    check(kCases[i].name, of_options(kCases[i].expected) || validate(&call) == kCases[i].expected);
     check(kCases[i].name, memcmp(&before, &call, sizeof call) == 0);
     check(kCases[i].name, strcmp(surefill_status_text(kCases[i].expected), "unknown status") != 0);
   }
@@ -368,6 +379,27 @@ static void check_to_pixel(void) {
   check("nothing mapped", out[0].x == 7 && out[1].w == 7 && in[1].x == 1);
 }
 
+/* A triangle in front of the box, its vertices 32 bytes apart. */
+static void check_strided_occluder(surefill_occlusion* occlusion, const surefill_box* box) {
+  static const surefill_vertex kVertices[5] = {
+      {-9, -9, 0, 1}, {0, 0, (float)NAN, 0}, {99, -9, 0, 1}, {0, 0, (float)NAN, 0}, {-9, 99, 0, 1}};
+  static const uint32_t kIndices[3] = {0, 1, 2};
+  surefill_draw draw;
+  uint8_t answer = 77;
+  memset(&draw, 0, sizeof draw);
+  draw.struct_size = sizeof draw;
+  draw.vertices = kVertices, draw.vertex_count = 3, draw.vertex_stride = 8;
+  draw.indices = kIndices, draw.index_count = 3;
+  check("stride of an occluder",
+        surefill_occlusion_draw(occlusion, &draw, 1, NULL, NULL) == SUREFILL_DRAW_VERTEX_STRIDE);
+  check("no occluder",
+        surefill_occlusion_query_boxes(occlusion, box, 1, &answer) == SUREFILL_OK && answer == SUREFILL_VISIBLE);
+  draw.vertex_stride = 2 * sizeof(surefill_vertex);
+  check("strided occluder", surefill_occlusion_draw(occlusion, &draw, 1, NULL, NULL) == SUREFILL_OK);
+  check("hidden by it",
+        surefill_occlusion_query_boxes(occlusion, box, 1, &answer) == SUREFILL_OK && answer == SUREFILL_HIDDEN);
+}
+
 static void check_occlusion(void) {
   surefill_occlusion* occlusion = NULL;
   surefill_box boxes[2];
@@ -398,6 +430,7 @@ static void check_occlusion(void) {
   check("nothing answered", answers[0] == 77 && answers[1] == 77);
   check("one box", surefill_occlusion_query_boxes(occlusion, boxes, 1, answers) == SUREFILL_OK);
   check("its answer", answers[0] == SUREFILL_VISIBLE && answers[1] == 77);
+  check_strided_occluder(occlusion, boxes);
   surefill_occlusion_destroy(occlusion);
 }
 

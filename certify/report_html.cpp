@@ -241,13 +241,16 @@ std::string finding_card(const std::vector<const CheckResult*>& findings, const 
     };
     return rank(*a) < rank(*b);
   });
-  std::string html = fmt::format("<section class=\"card\"><h3>{}</h3>\n<p>Found by ", escaped(cause));
+  const std::string& said = best.shown.empty() ? best.finding : best.shown;
+  const bool is_pattern = cause.find('#') != std::string::npos;  // then the finding itself reads better
+  std::string html =
+      fmt::format("<section class=\"card\"><h3>{}</h3>\n<p>Found by ", escaped(is_pattern ? said : cause));
   for (std::size_t n = 0; n < findings.size(); ++n) {
     html += fmt::format("{}<b>{}</b> ({} of {} {})", n == 0 ? "" : ", ", escaped(findings[n]->name),
                         grouped(findings[n]->failed), grouped(findings[n]->done), escaped(findings[n]->unit));
   }
-  html += fmt::format(".</p>\n<p>{}: {} [{}]</p>\n<p class=\"say\">{}</p>\n", escaped(best.name), escaped(best.claim),
-                      escaped(best.rule), escaped(best.shown.empty() ? best.finding : best.shown));
+  html += fmt::format(".</p>\n<p>{}: {} [{}]</p>\n", escaped(best.name), escaped(best.claim), escaped(best.rule));
+  if (!is_pattern) html += fmt::format("<p class=\"say\">{}</p>\n", escaped(said));
   const Evidence& evidence = best.evidence;
   if (evidence.width > 0 && !best.scene_text.empty()) {
     std::vector<std::vector<Point>> triangles;

@@ -54,6 +54,7 @@ Outcome first_finding(const ZooRivalOptions& options, const Animal& animal) {
   RivalChoice choice;
   choice.plugin = options.plugin;
   choice.arguments = animal.name;
+  choice.time_limit = 120;  // most are exact arithmetic, slow on meshes
   Outcome outcome;
   std::unique_ptr<adapters::Rival> rival;
   try {

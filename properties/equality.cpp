@@ -91,7 +91,12 @@ corpus::Scene make_far_grid(std::uint64_t n) {
     const float along = random.one_in(4) ? static_cast<float>(random.between(-100, kMaxTargetSize)) : far();
     const float across = random.one_in(2) ? far() : static_cast<float>(random.between(-4000, 4000)) / 16;
     v = {high ? across : along, high ? along : across, static_cast<float>(random.between(0, 8)) / 8, 1};
-    if (random.one_in(8)) v.w = static_cast<float>(random.between(-2, 0));
+    if (random.one_in(8)) {
+      v.w = static_cast<float>(random.between(-2, 0));
+    } else if (random.one_in(2)) {  // coordinates of all bits: cut points are rounded on the way
+      const float w = 0.5f + static_cast<float>(random.unit());
+      v = {v.x * w, v.y * w, v.z * w, w};
+    }
   }
   const int breadth = random.between(1, 3);
   corpus::Scene scene =
@@ -105,7 +110,7 @@ corpus::Scene make_far_grid(std::uint64_t n) {
 }
 
 corpus::Scene make_grid(std::uint64_t n) {
-  if (n % 32 == 31) return make_far_grid(n / 32);
+  if (n % 16 == 15) return make_far_grid(n / 16);
   return make_mode(n, n % 4 == 3, true, false);
 }
 corpus::Scene make_conservative(std::uint64_t n) {

@@ -41,7 +41,7 @@ CHECKS = ["argument_check.cpp", "checks.cpp", "contract_checks.cpp", "judge.cpp"
 SKIPPED = re.compile(r"constexpr|static_assert|template|#|using |operator|requires|case |Statistics|\+\+statistics|if \(SUREFILL_PLANT")
 PLANTED = re.compile(r"(?: \+ \()?SUREFILL_PLANT\(\w+\)(?:.* :(?: 0\))?|.*)")
 OPERATOR = re.compile(r"(?<=[\w)\]]) (\+|-|\*|<|<=|>|>=|==|!=) (?=[\w(\-!&*])")
-LITERAL = re.compile(r"(?<=[ (])(\d+)(?=[),;]| [-+*<>=?:])")
+LITERAL = re.compile(r"(?<=[ ({])(\d+)(?=[),;}]| [-+*<>=?:])")
 STATEMENT = re.compile(r"^(\s+)([a-z_]\w*(?:(?:\.|->|\[|\().*| [-+*|&]?= .*)|\+\+\w.*|break|continue);$")
 RETURN = re.compile(r"^\s+return (true|false);$")
 CONDITION = re.compile(r"^(\s*(?:\} else )?if) \((.*)\) (\{|return .*;|continue;|break;)$")
@@ -216,7 +216,8 @@ def main():
                 if outcome != "killed" and m.name not in explained:
                     print(f"survived: {m.name}", flush=True)
 
-    wanted = [n for n in mine if not killed(n)]
+    # One that is explained, and has outlived the suite once, need not do so again.
+    wanted = [n for n in mine if not killed(n) and not (everyone[n - 1].name in explained and everyone[n - 1].name in results)]
     with ThreadPoolExecutor(arguments.jobs) as pool, open(results_file, "a") as out:
         list(pool.map(run, [wanted[i::arguments.jobs] for i in range(arguments.jobs)]))
     wrong = [n for n in mine if killed(n) and everyone[n - 1].name in explained]

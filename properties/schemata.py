@@ -41,7 +41,7 @@ CHECKS = ["argument_check.cpp", "checks.cpp", "contract_checks.cpp", "judge.cpp"
 SKIPPED = re.compile(r"constexpr|static_assert|template|#|using |operator|requires|case |Statistics|\+\+statistics|if \(SUREFILL_PLANT")
 PLANTED = re.compile(r"(?: \+ \()?SUREFILL_PLANT\(\w+\)(?:.* :(?: 0\))?|.*)")
 OPERATOR = re.compile(r"(?<=[\w)\]]) (\+|-|\*|<|<=|>|>=|==|!=) (?=[\w(\-!&*])")
-LITERAL = re.compile(r"(?<=[ ({])(\d+)(?=[),;}]| [-+*<>=?:])")
+LITERAL = re.compile(r"(?<=[ (])(\d+)(?=[),;]| [-+*<>=?:])")
 STATEMENT = re.compile(r"^(\s+)([a-z_]\w*(?:(?:\.|->|\[|\().*| [-+*|&]?= .*)|\+\+\w.*|break|continue);$")
 RETURN = re.compile(r"^\s+return (true|false);$")
 CONDITION = re.compile(r"^(\s*(?:\} else )?if) \((.*)\) (\{|return .*;|continue;|break;)$")

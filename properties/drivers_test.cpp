@@ -141,6 +141,34 @@ TEST_F(Drivers, WrongStateIsNotBlamedOnVulkan) {
                  {"scissor", "viewport", "multisample", "cull", "blend", "depth-range", "front-face", "depth-test"});
 }
 
+// The commands of docs/certify-your-rasterizer.md do what they say; those of drivers and scripts with one check only.
+TEST_F(Drivers, TheHowToIsTrue) {
+  const fs::path root = fs::path(SUREFILL_CERTIFICATES) / "../..";
+  for (const char* name : {"certify", "examples"}) fs::create_directory_symlink(root / name, folder_ / name);
+  std::istringstream page(contents(root / "docs/certify-your-rasterizer.md"));
+  bool shell = false;
+  std::size_t commands = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.rfind("```", 0) == 0) shell = line == "```sh";
+    const bool names_a_finding = line.find("FOUND.scene") != std::string::npos;
+    if (!shell || line.rfind("```", 0) == 0 || names_a_finding) continue;
+    ++commands;
+    if (line.rfind("surefill ", 0) != 0) {
+      EXPECT_EQ(std::system(("cd '" + folder_.string() + "' && " + line).c_str()), 0) << line;
+      continue;
+    }
+    const bool of_driver = line.find("--adapter") != std::string::npos;
+    const bool slow = of_driver || line.find("--command") != std::string::npos;
+    const int status = surefill(line.substr(9) + " --jobs 1" + (slow ? " --only model" : ""));
+    if (of_driver && status == 2) {
+      EXPECT_TRUE(says("nothing to judge") || says("was not built")) << line << "\n" << out;
+    } else {
+      EXPECT_EQ(status, 0) << line << "\n" << out;
+    }
+  }
+  EXPECT_GE(commands, 7u);
+}
+
 TEST_F(Drivers, AbsentDriversAreNotJudged) {
   EXPECT_EQ(surefill("certify --adapter opengl --plugin-arguments driver=none"), 2) << out;
   EXPECT_EQ(surefill("certify --adapter vulkan --plugin-arguments device=none"), 2) << out;

@@ -144,6 +144,25 @@ TEST_F(Adapter, MeshesInPerspectiveTile) {
   EXPECT_EQ(certify("--only mesh-perspective --plugin " SUREFILL_FIXED_POINT), 0) << out;
 }
 
+// Models that upright and level edges cannot tell apart: slanted ones can.
+TEST_F(Adapter, AlikeModelsAreToldApart) {
+  const std::pair<const char*, const char*> models[] = {
+      {"exact", "probing finds exact, fill rule top-left"},
+      {"grid-4-nearest-even-bottom-left",
+       "probing finds grid of 4 bits, nearest-even, offset (0, 0), fill rule bottom-l"},
+      {"grid-8-nearest-up-bottom-right",
+       "probing finds grid of 8 bits, nearest-up, offset (0, 0), fill rule bottom-righ"},
+      {"grid-8-truncate-bottom-right", "probing finds grid of 8 bits, truncate, offset (0, 0), fill rule bottom-right"},
+      {"grid-12-truncate-top-right", "probing finds grid of 12 bits, truncate, offset (0, 0), fill rule top-right"},
+  };
+  for (const auto& [name, found] : models) {
+    const std::string rival = "--only model --plugin " SUREFILL_ZOO_PLUGIN " --plugin-arguments ";
+    EXPECT_EQ(certify(rival + name), 0) << out;
+    EXPECT_EQ(certify(rival + "undeclared-" + name), 0) << out;
+    EXPECT_TRUE(says(found)) << out;
+  }
+}
+
 TEST_F(Adapter, FloatEdgesCrackWithoutTheCorpus) {
   EXPECT_EQ(certify("--only 'partition-delaunay' --plugin " SUREFILL_FLOAT_EDGES), 1) << out;
   EXPECT_TRUE(says("count of a tiling")) << out;

@@ -229,19 +229,40 @@ bool explains(const std::vector<Probe>& probes, double towards, const Snap& snap
   });
 }
 
-// Of grids, the one that explains most of some slanted edges; of equals, one without offset, then of more bits.
-Grid best_of(Rival& rival, std::vector<Grid> grids, FillRule rule) {
-  const auto rank = [](const Grid& g) { return std::tuple(g.offset_x + g.offset_y, -g.bits, g.rounding, g.offset_x); };
-  std::sort(grids.begin(), grids.end(), [&rank](const Grid& a, const Grid& b) { return rank(a) < rank(b); });
-  std::vector<std::size_t> mismatches(grids.size(), 0);
+// A grid, or none: exact.
+using Candidate = std::optional<Grid>;
+
+bool same_grid(const Candidate& a, const Candidate& b) {
+  if (!a || !b) return !a && !b;
+  return a->bits == b->bits && a->offset_x == b->offset_x && a->offset_y == b->offset_y && a->rounding == b->rounding;
+}
+
+// Of candidates, the one that explains most of some slanted edges; of equals, the declared one, then exact, then a grid
+// without offset, then one of more bits.
+Candidate best_of(Rival& rival, std::vector<Candidate> candidates, FillRule rule, const Candidate& declared) {
+  const auto rank = [&declared](const Candidate& c) {
+    const Grid g = c.value_or(Grid{});
+    return std::tuple(!same_grid(c, declared), c.has_value(), g.offset_x + g.offset_y, -g.bits, g.rounding, g.offset_x);
+  };
+  std::sort(candidates.begin(), candidates.end(), [&rank](const auto& a, const auto& b) { return rank(a) < rank(b); });
+  std::vector<std::size_t> mismatches(candidates.size(), 0);
   properties::Random random(0x5EED);
-  // Between the positions of the finest grid, and exact in clip space.
-  const auto coordinate = [&random] { return static_cast<float>(random.between(0, 8 << 16)) * 0x1p-16f; };
-  for (int n = 0; n < 24 && grids.size() > 1; ++n) {
+  for (int n = 0; n < 36 && candidates.size() > 1; ++n) {
     std::vector<std::array<Point, 3>> triangles;
     for (int t = 0; t < 12; ++t) {
+      // Between the positions of the finest grid, or halfway between two of a candidate's; all exact in clip space.
+      const auto count = static_cast<std::uint32_t>(candidates.size());
+      const Candidate halfway = n % 3 == 0 ? std::nullopt : candidates[random.below(count)];
+      const auto coordinate = [&](int offset) {
+        if (!halfway) return static_cast<float>(random.between(0, 8 << 16)) * 0x1p-16f;
+        const auto sixteenths = static_cast<float>(16 * random.between(0, (8 << halfway->bits) - 1) + 8 + offset);
+        return std::ldexp(sixteenths, -halfway->bits - 4);
+      };
       std::array<Point, 3> triangle{};
-      for (Point& p : triangle) p = {coordinate(), coordinate()};
+      for (Point& p : triangle) {
+        p.x = coordinate(halfway ? halfway->offset_x : 0);
+        p.y = coordinate(halfway ? halfway->offset_y : 0);
+      }
       // Every other edge passes a sample so closely that snapping its ends decides.
       if (t % 2 == 0) {
         const float x = std::floor(triangle[2].x) + 0.5f, y = std::floor(triangle[2].y) + 0.5f;
@@ -251,28 +272,28 @@ Grid best_of(Rival& rival, std::vector<Grid> grids, FillRule rule) {
     }
     const Scene scene = flat_scene(8, 8, triangles);
     const std::vector<std::uint32_t> counts = counts_of(rival, scene);
-    for (std::size_t g = 0; g < grids.size(); ++g) {
-      const std::vector<std::uint32_t> expected = exact_counts(scene, rule, grids[g]);
-      for (std::size_t s = 0; s < counts.size(); ++s) mismatches[g] += counts[s] != expected[s];
+    for (std::size_t c = 0; c < candidates.size(); ++c) {
+      const std::vector<std::uint32_t> expected = exact_counts(scene, rule, candidates[c]);
+      for (std::size_t s = 0; s < counts.size(); ++s) mismatches[c] += counts[s] != expected[s];
     }
   }
-  return grids[static_cast<std::size_t>(std::min_element(mismatches.begin(), mismatches.end()) - mismatches.begin())];
+  const auto best = std::min_element(mismatches.begin(), mismatches.end()) - mismatches.begin();
+  return candidates[static_cast<std::size_t>(best)];
 }
 
-bool infer_grid(Rival& rival, Inference& result) {
+bool infer_grid(Rival& rival, const surefill_adapter_model& declared, Inference& result) {
   // The signs of C3's shifts for each rule.
   constexpr std::array<std::array<double, 2>, 8> kShifts{
       {{1, 1}, {-1, 1}, {1, -1}, {-1, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
   const std::array<double, 2> shift = kShifts[result.model.fill_rule];
   const std::array<std::vector<Probe>, 2> probes{probe_axis(rival, true), probe_axis(rival, false)};
+  // Upright and level edges say where, beside a sample, positions go to either side of it, and no more: some coarser
+  // grid with an offset may say the same as a finer one without, or truncation the same as no grid.
+  std::vector<Candidate> candidates;
   const auto as_it_is = [](double position) { return position; };
   if (explains(probes[0], shift[0], as_it_is) && explains(probes[1], shift[1], as_it_is)) {
-    result.model.kind = SUREFILL_ADAPTER_MODEL_EXACT;
-    return true;
+    candidates.push_back(std::nullopt);
   }
-  // Upright and level edges say where, beside a sample, positions go to either side of it, and no more: some coarser
-  // grid with an offset may say the same as a finer one without.
-  std::vector<Grid> grids;
   for (int bits = 12; bits >= 1; --bits) {
     for (int rounding = 0; rounding < 3; ++rounding) {
       std::array<std::vector<int>, 2> offsets;
@@ -283,17 +304,24 @@ bool infer_grid(Rival& rival, Inference& result) {
         }
       }
       for (const int x : offsets[0]) {
-        for (const int y : offsets[1]) grids.push_back({bits, x, y, static_cast<GridRounding>(rounding)});
+        for (const int y : offsets[1]) candidates.push_back(Grid{bits, x, y, static_cast<GridRounding>(rounding)});
       }
     }
   }
-  if (!grids.empty()) {
-    const Grid grid = best_of(rival, std::move(grids), static_cast<FillRule>(result.model.fill_rule));
-    result.model.kind = SUREFILL_ADAPTER_MODEL_GRID;
-    result.model.grid_bits = static_cast<std::uint32_t>(grid.bits);
-    result.model.grid_rounding = static_cast<std::uint32_t>(grid.rounding);
-    result.model.grid_offset_x = static_cast<std::uint32_t>(grid.offset_x);
-    result.model.grid_offset_y = static_cast<std::uint32_t>(grid.offset_y);
+  if (!candidates.empty()) {
+    Candidate as_declared;
+    if (declared.kind == SUREFILL_ADAPTER_MODEL_GRID) {
+      as_declared = Grid{static_cast<int>(declared.grid_bits), static_cast<int>(declared.grid_offset_x),
+                         static_cast<int>(declared.grid_offset_y), static_cast<GridRounding>(declared.grid_rounding)};
+    }
+    const Candidate found =
+        best_of(rival, std::move(candidates), static_cast<FillRule>(result.model.fill_rule), as_declared);
+    result.model.kind = found ? SUREFILL_ADAPTER_MODEL_GRID : SUREFILL_ADAPTER_MODEL_EXACT;
+    if (!found) return true;
+    result.model.grid_bits = static_cast<std::uint32_t>(found->bits);
+    result.model.grid_rounding = static_cast<std::uint32_t>(found->rounding);
+    result.model.grid_offset_x = static_cast<std::uint32_t>(found->offset_x);
+    result.model.grid_offset_y = static_cast<std::uint32_t>(found->offset_y);
     return true;
   }
   std::size_t early = 0, late = 0;
@@ -331,7 +359,7 @@ Inference infer_model(Rival& rival) {
     raw.depth_range = result.model.depth_range;
     rival.set_model(raw);
     if (fits) fits = infer_fill_rule(rival, result);
-    if (fits && result.model.kind == SUREFILL_ADAPTER_MODEL_UNKNOWN) fits = infer_grid(rival, result);
+    if (fits && result.model.kind == SUREFILL_ADAPTER_MODEL_UNKNOWN) fits = infer_grid(rival, declared, result);
     result.fits = fits && result.problems.size() == problems;
   } catch (...) {
     rival.set_model(declared);

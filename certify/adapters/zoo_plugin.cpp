@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The zoo behind the adapter header: the argument names the rasterizer, a specimen of properties/zoo or a right one:
-// "exact", "exact-second" or "grid-BITS-ROUNDING-CORNER", such as grid-8-nearest-even-top-left.
+// "exact", "exact-second" or "grid-BITS-ROUNDING-CORNER", such as grid-8-nearest-even-top-left. "undeclared-" before a
+// name: it does not say what its model is.
 #include <cstdio>
 #include <optional>
 #include <string>
@@ -38,7 +39,10 @@ Status exact_second(const Target& target, zoo::Draws draws) {
 }
 
 int open_adapter(const char* arguments, surefill_adapter_info* info, void** handle) {
-  const std::string name = arguments;
+  std::string name = arguments;
+  const std::string prefix = "undeclared-";
+  const bool undeclared = name.rfind(prefix, 0) == 0;
+  if (undeclared) name.erase(0, prefix.size());
   Instance instance;
   for (const zoo::Specimen& specimen : zoo::specimens()) {
     if (name == specimen.name) instance.render = specimen.render;
@@ -60,6 +64,10 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
   if (!instance.render) {
     open_error = "the zoo has no rasterizer of this name: " + name + " (surefill zoo shows them)";
     return SUREFILL_ADAPTER_FAILED;
+  }
+  if (undeclared) {
+    info->model = {};
+    info->model.profile = SUREFILL_ADAPTER_PROFILE_EXACT;
   }
   std::snprintf(info->name, sizeof info->name, "%s", name.c_str());
   std::snprintf(info->version, sizeof info->version, "%s", SUREFILL_VERSION);

@@ -107,6 +107,25 @@ TEST_F(Adapter, WhateverAPluginDoesIsAFinding) {
   }
 }
 
+// The same of programs over a pipe.
+TEST_F(Adapter, WhateverAProgramDoesIsAFinding) {
+  for (const char* program : {"true", "yes", "head -c 100000 /dev/zero", "no-such-program"}) {
+    EXPECT_EQ(certify("--time-limit 0.1 --command '" + std::string(program) + "'"), 1) << program << "\n" << out;
+    EXPECT_TRUE(says("NOT CERTIFIED")) << program << "\n" << out;
+  }
+  const std::string answer = "answer = INFO if kind == 1 else draw(body)";
+  const std::pair<const char*, const char*> faults[] = {
+      {"; kind == 2 and body[4] > 9 and sys.exit(3)", "ended with status 3"},
+      {"; answer = answer[:-4] if kind == 2 else answer", "words where"},
+      {"; kind == 2 and body[4] > 9 and sys.stdin.read()", "gave no answer within 0.5 s"},
+  };
+  for (const auto& [fault, finding] : faults) {
+    EXPECT_EQ(certify("--time-limit 0.5 --only alone,model " + python_with(answer, answer + fault)), 1) << out;
+    EXPECT_TRUE(says(finding)) << fault << "\n" << out;
+    EXPECT_TRUE(says("NOT CERTIFIED")) << fault << "\n" << out;
+  }
+}
+
 // A rival that reads clip space and its viewport, in both depth ranges, and one that takes y for down.
 TEST_F(Adapter, ClipSpaceIsTold) {
   const std::string engine = "--plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments ";

@@ -261,7 +261,7 @@ std::uint64_t affordable_cases(const Property& property, std::uint64_t cases) {
   if (name == "small-world-eighth-pixel") times = 40;
   if (name == "small-world-half-pixel-4" || name == "small-world-quarter-pixel" ||
       name == "small-world-homogeneous-rules" || name == "small-world-conservative" ||
-      name == "small-world-conservative-homogeneous")
+      name == "small-world-conservative-w")
     times = 10;
   return std::max<std::uint64_t>(1, cases / times);
 }

@@ -372,7 +372,7 @@ constexpr Property kProperties[] = {
      "each of the 117,649 triangles on the half-pixel lattice of 3 x 3, over and inner, by integers and separating "
      "axes",
      false, true, kConservative, make_conservative, decide_by_integers},
-    {"small-world-conservative-homogeneous", "M4",
+    {"small-world-conservative-w", "M4",
      "each of the 262,144 triangles over {-1, 0, 1, 2}^3 in (X, Y, W), over and inner, is the oracle's on 3 x 3", true,
      true, kHomogeneousConservative, make_homogeneous_conservative, decide_outputs},
     {"small-world-grid", "G1, G2",

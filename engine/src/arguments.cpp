@@ -148,9 +148,10 @@ Status validate_draw(const Target& target, const Draw& draw, const OutputBuffers
                !outputs.touched_by(Bytes(draw.identifiers));
   for (const AttributeArray& attribute : draw.attributes) apart = apart && !outputs.touched_by(Bytes(attribute.values));
   if (!apart) return Status::target_overlap;
-  for (const std::uint32_t index : draw.indices) {
-    if (index >= draw.vertices.size() + (SUREFILL_PLANT(index_check) ? 1 : 0)) return Status::draw_index_out_of_range;
-  }
+  std::uint32_t largest = 0;
+  for (const std::uint32_t index : draw.indices) largest = std::max(largest, index);
+  if (!draw.indices.empty() && largest >= draw.vertices.size() + (SUREFILL_PLANT(index_check) ? 1 : 0))
+    return Status::draw_index_out_of_range;
   return Status::ok;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Triangles into the blocks of one bin: coverage by int32 edge functions with deferred uncertainty, depth by filter,
-// hierarchical z. What the vector arithmetic cannot tell goes to the scalar Triangle, lane by lane.
+// Batches of triangles into the blocks of the canvas: coverage by int32 edge functions with deferred uncertainty, depth
+// by filter, hierarchical z. What the vector arithmetic cannot tell goes to the scalar Triangle, sample by sample.
 // Included once for each instruction set by kernels.cpp.
 #if defined(SUREFILL_SRC_BLOCK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREFILL_SRC_BLOCK_INL_HPP
@@ -28,19 +28,54 @@ using CellDouble = hn::CappedTag<double, 1>;
 #else
 using CellDouble = hn::Repartition<double, CellInt>;
 #endif
+constexpr std::size_t kCellLanes = hn::MaxLanes(CellInt());
 
-// Sample k of a cell is (k & 3, k >> 2); so is cell k of a 16 x 16 area, and area k of a tile.
+// Sample k of a cell is (k & 3, k >> 2); so is cell k of an area of 16 x 16 samples, and area k of a tile.
 alignas(64) constexpr std::int32_t kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+alignas(64) constexpr double kColumnDouble[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+alignas(64) constexpr double kRowDouble[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
-// Bits of the columns [c0, c1] and rows [r0, r1] of a 4 x 4 arrangement; a range is cut to 0..3.
-inline std::uint32_t Mask4x4(int c0, int c1, int r0, int r1) {
-  c0 = std::max(c0, 0), r0 = std::max(r0, 0), c1 = std::min(c1, 3), r1 = std::min(r1, 3);
-  if (c0 > c1 || r0 > r1) return 0;
-  const std::uint32_t columns = ((0xFu >> (3 - (c1 - c0))) << c0) * 0x1111u;
-  const std::uint32_t rows = (0xFFFFu >> (4 * (3 - (r1 - r0)))) << (4 * r0);
+// Bits of the columns [first, last] and rows [first, last] of a 4 x 4 arrangement; the ranges are cut to 0..3.
+inline std::uint32_t Mask4x4(int column0, int column1, int row0, int row1) {
+  column0 = std::max(column0, 0), row0 = std::max(row0, 0), column1 = std::min(column1, 3), row1 = std::min(row1, 3);
+  if (column0 > column1 || row0 > row1) return 0;
+  const std::uint32_t columns = ((0xFu >> (3 - (column1 - column0))) << column0) * 0x1111u;
+  const std::uint32_t rows = (0xFFFFu >> (4 * (3 - (row1 - row0)))) << (4 * row0);
   return columns & rows;
 }
+
+// The positions of the set bits of a byte, in order, and zeros.
+struct BitPositions {
+  std::uint64_t of[256];
+  constexpr BitPositions() : of() {
+    for (unsigned byte = 0; byte < 256; ++byte) {
+      unsigned n = 0;
+      for (unsigned bit = 0; bit < 8; ++bit) {
+        if ((byte >> bit & 1) != 0) of[byte] |= std::uint64_t{bit} << (8 * n++);
+      }
+    }
+  }
+};
+constexpr BitPositions kBitPositions;
+
+// Cells to be drawn: slot * 16 + number of the cell in the slot's area. Without a branch for each cell: how many there
+// are is what a processor cannot guess.
+struct CellList {
+  std::uint8_t items[256 + 16];
+  std::size_t size = 0;
+
+  void Append(std::size_t slot, std::uint32_t cells) {
+    const std::uint32_t low = cells & 0xFF, high = cells >> 8;
+    const std::uint64_t base = slot * 16 * 0x0101010101010101u;
+    const std::uint64_t first = kBitPositions.of[low] + base;
+    const std::uint64_t second = kBitPositions.of[high] + base + 0x0808080808080808u;
+    const std::size_t begin = size, middle = begin + static_cast<std::size_t>(__builtin_popcount(low));
+    size = middle + static_cast<std::size_t>(__builtin_popcount(high));
+    std::memcpy(items + begin, &first, 8);
+    std::memcpy(items + middle, &second, 8);
+  }
+};
 
 // Sixteen depths of a cell: base + lanes, rounded to float32. -0 becomes +0.
 HWY_INLINE hn::Vec<CellFloat> RoundDepths(double base, const double* lanes) {
@@ -58,335 +93,612 @@ HWY_INLINE hn::Vec<CellFloat> RoundDepths(double base, const double* lanes) {
   return hn::Add(rounded, hn::Zero(df));
 }
 
-// One edge function over an area of 4 x 4 cells: integer values at the first sample of each cell, biased by the bound,
-// and the steps to the samples within a cell.
-struct EdgeLanes {
-  alignas(64) std::int32_t sample[16];  // a column + b row
-  alignas(64) std::int32_t cell[16];    // value at sample 0 of the cell, minus the bound
-};
-
-template <bool kVisibility, bool kCount>
+// kWinner and kCount only with a canvas that has them; kWinner implies kDepth.
+template <bool kDepth, bool kWinner, bool kCount>
 class Rasterizer {
  public:
-  Rasterizer(const BinJob& job, Statistics& statistics)
-      : job_(job), draw_(*job.draw), statistics_(statistics), shift_(tie_shift(draw_.fill_rule)) {
-    const PixelBox& r = job.region;
-    partial_ = ((r.x0 | r.y0) & 3) != 0 || ((r.x1 | r.y1) & 3) != 0;
-    with_identifiers_ = !draw_.identifiers.empty();
+  Rasterizer(const DrawJob& job, const Canvas& canvas, BandSet bands, Statistics& statistics)
+      : job_(job),
+        draw_(*job.draw),
+        canvas_(canvas),
+        bands_(bands),
+        statistics_(statistics),
+        shift_(job.shift) {
+    if (draw_.scissor) {  // else what lies beyond the target is drawn where nobody looks
+      const PixelBox& r = job.region;
+      partial_ = ((r.x0 | r.y0) & 3) != 0 || (r.x1 & 3) != 0 || (r.y1 & 3) != 0;
+    }
+    with_identifiers_ = kWinner && !draw_.identifiers.empty();
+    ordered_ = with_identifiers_ || !draw_.depth_write;
     near_ = job.greater ? -1.0f : 0.0f, far_ = job.greater ? 0.0f : 1.0f;
+    clamps_ = draw_.depth_mode == DepthMode::clamp;
+    for (int odd = 0; odd < 4; ++odd) {  // whether an area begins at an odd column of cells, and at an odd row
+      for (int n = 0; n < 16; ++n) {
+        const int x = (odd & 1) * 4 + (n & 3) * 4, y = (odd >> 1) * 4 + (n >> 2) * 4;
+        cell_offsets_[odd][n] = static_cast<std::uint32_t>(canvas_.offset_in_blocks(x, y) -
+                                                           canvas_.offset_in_blocks((odd & 1) * 4, (odd >> 1) * 4));
+      }
+    }
   }
 
-  void Run() {
-    for (std::size_t begin = 0; begin < job_.entries.size(); begin += kBatch) {
-      const auto count = static_cast<std::uint32_t>(std::min<std::size_t>(kBatch, job_.entries.size() - begin));
-      entries_ = &job_.entries[begin];
-      Prefetch(begin);
-      SetUp(job_, entries_, count, kVisibility, batch_, statistics_);
-      if (!kVisibility && !kCount) continue;  // no output is asked for but the statistics
-      for (std::uint32_t live = batch_.live; live != 0; live &= live - 1) {
-        lane_ = static_cast<std::uint32_t>(__builtin_ctz(live));
-        exact_ready_ = false;
-        position_ = job_.chunk_begin + entries_[lane_].number;
-        if (kVisibility) LoadPlane();
-        if ((batch_.small >> lane_ & 1) != 0) {
-          Small();
+  void Run(std::span<const Batch> batches) {
+    for (std::size_t i = 0; i < batches.size(); ++i) {
+      if (kDepth && i + 1 < batches.size()) Prefetch(batches[i + 1]);
+      batch_ = &batches[i];
+      for (std::uint32_t live = batch_->live; live != 0; live &= live - 1) {
+        const auto lane = static_cast<std::uint32_t>(__builtin_ctz(live));
+        if (bands_.sets > 1 && !OwnsOne(lane)) continue;
+        if ((batch_->small >> lane & 1) != 0) {
+          Small(lane);
+          continue;
+        }
+        DrawCells(1);  // the small ones before it
+        if ((batch_->medium >> lane & 1) != 0) {
+          Medium(lane);
         } else {
-          Large();
+          Large(lane);
         }
       }
+      DrawCells(1);
     }
   }
 
  private:
-  // Triangles of a bin lie anywhere in memory: their indices and vertices are asked for a few batches ahead.
-  void Prefetch(std::size_t begin) const {
-    const std::size_t far = begin + 4 * kBatch, near = begin + 2 * kBatch, end = job_.entries.size();
-    for (std::size_t i = far; i < std::min(far + kBatch, end); ++i) hwy::Prefetch(Indices(i));
-    for (std::size_t i = near; i < std::min(near + kBatch, end); ++i) {
-      const std::uint32_t* const indices = Indices(i);
-      for (std::size_t k = 0; k < 3; ++k) hwy::Prefetch(&draw_.vertices[indices[k]]);
+  bool OwnsOne(std::uint32_t lane) const {
+    const int first = batch_->first_y[lane] >> kTileLog2, last = batch_->last_y[lane] >> kTileLog2;
+    for (int band = first; band <= last; ++band) {
+      if (bands_.owns(band)) return true;
     }
-  }
-  const std::uint32_t* Indices(std::size_t entry) const {
-    return &draw_.indices[std::size_t{3} * (job_.chunk_begin + job_.entries[entry].number)];
+    return false;
   }
 
-  // ---- depth plane of the triangle at hand
-  void LoadPlane() {
-    origin_x_ = batch_.OriginX(lane_), origin_y_ = batch_.OriginY(lane_);
-    z_ = batch_.z[lane_], z_x_ = batch_.z_x[lane_], z_y_ = batch_.z_y[lane_], z_error_ = batch_.z_error[lane_];
-    slow_depth_ = (batch_.slow_depth >> lane_ & 1) != 0;
-    clip_ = (batch_.clip >> lane_ & 1) != 0;
-    const CellDouble dd;
-    const auto zx = hn::Set(dd, z_x_), zy = hn::Set(dd, z_y_);
-    for (std::size_t i = 0; i < 16; i += hn::Lanes(dd)) {
-      hn::Store(hn::Add(hn::Mul(zx, hn::Load(dd, kColumnDouble + i)), hn::Mul(zy, hn::Load(dd, kRowDouble + i))), dd,
-                z_lane_ + i);
-    }
-  }
-  double DepthAt(int x, int y) const { return z_ + (z_x_ * (x - origin_x_) + z_y_ * (y - origin_y_)); }
-
-  // ---- areas of 4 x 4 cells
-  void Small() {
-    std::int32_t a[3], b[3], e[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-      a[i] = batch_.small_a[i][lane_], b[i] = batch_.small_b[i][lane_], e[i] = batch_.small_e[i][lane_] - kSmallBound;
-    }
-    const int x = batch_.OriginX(lane_), y = batch_.OriginY(lane_);
-    const std::uint32_t cells =
-        Mask4x4(0, (batch_.boxes.last_x[lane_] - x) >> 2, 0, (batch_.boxes.last_y[lane_] - y) >> 2);
-    SetUpLanes(a, b);
-    Area(e, a, b, SUREFILL_PLANT(small_bound) ? 2 : kSmallBound, cells, x, y);
-  }
-
-  // Larger triangles: tile by tile, with a scale for 64 samples; areas of 16 x 16 samples are rejected, accepted or
-  // looked into.
-  void Large() {
-    double a[3], b[3], c[3];
-    std::int32_t ai[3], bi[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const double ua = batch_.a[i][lane_], ub = batch_.b[i][lane_];
-      const double scale =
-          std::ldexp(1.0, kTileExponent - std::ilogb(std::max({std::fabs(ua), std::fabs(ub), 0x1p-400})));
-      a[i] = ua * scale, b[i] = ub * scale, c[i] = batch_.c[i][lane_] * scale;
-      ai[i] = static_cast<std::int32_t>(std::nearbyint(a[i]));
-      bi[i] = static_cast<std::int32_t>(std::nearbyint(b[i]));
-    }
-    SetUpLanes(ai, bi);
-    constexpr int kTileMask = ~((1 << kTileLog2) - 1);
-    const int last_x = batch_.boxes.last_x[lane_], last_y = batch_.boxes.last_y[lane_];
-    for (int ty = batch_.boxes.first_y[lane_] & kTileMask; ty <= last_y; ty += 1 << kTileLog2) {
-      const int last_tile = SUREFILL_PLANT(tile_border) ? last_x - 1 : last_x;
-      for (int tx = batch_.boxes.first_x[lane_] & kTileMask; tx <= last_tile; tx += 1 << kTileLog2) {
-        std::int32_t e[3];
-        for (std::size_t i = 0; i < 3; ++i) {
-          const double value = (a[i] * (tx + 0.5) + b[i] * (ty + 0.5)) + c[i];
-          e[i] = static_cast<std::int32_t>(std::nearbyint(std::clamp(value, -kEdgeLimit, kEdgeLimit))) - kTileBound;
+  // Small triangles lie anywhere: their cells are asked for a batch ahead. (Inlined: g++ drops calls of functions that
+  // only prefetch.)
+  HWY_INLINE void Prefetch(const Batch& batch) const {
+    for (std::uint32_t small = batch.live & batch.small; small != 0; small &= small - 1) {
+      const auto lane = static_cast<std::size_t>(__builtin_ctz(small));
+      for (int y = batch.first_y[lane] & ~3; y <= batch.last_y[lane]; y += 4) {
+        for (int x = batch.first_x[lane] & ~3; x <= batch.last_x[lane]; x += 4) {
+          const std::size_t offset = canvas_.offset_of(x, y);
+          hwy::Prefetch(canvas_.depth + offset);
+          if (kWinner) hwy::Prefetch(canvas_.winner + offset);
         }
-        Tile(e, ai, bi, tx, ty);
       }
     }
   }
 
-  void Tile(const std::int32_t (&e)[3], const std::int32_t (&a)[3], const std::int32_t (&b)[3], int tx, int ty) {
-    const int first_x = batch_.boxes.first_x[lane_] - tx, last_x = batch_.boxes.last_x[lane_] - tx;
-    const int first_y = batch_.boxes.first_y[lane_] - ty, last_y = batch_.boxes.last_y[lane_] - ty;
-    // Values at the areas' first samples; the least and the largest in an area decide.
-    const CellInt d;
-    alignas(64) std::int32_t area_e[3][16];
-    std::uint32_t possible = 0, full = 0;
-    for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
-      auto possible_lanes = hn::Zero(d), full_lanes = hn::Zero(d);
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto value = hn::Add(hn::Set(d, e[k]), hn::ShiftLeft<4>(hn::Load(d, edge_[k].sample + i)));
-        hn::Store(value, d, area_e[k] + i);
-        const std::int32_t most = 15 * (std::max(a[k], 0) + std::max(b[k], 0)) + 2 * kTileBound;
-        const std::int32_t least = 15 * (std::min(a[k], 0) + std::min(b[k], 0));
-        possible_lanes = hn::Or(possible_lanes, hn::Add(value, hn::Set(d, most)));  // negative if one is
-        full_lanes = hn::Or(full_lanes, hn::Add(value, hn::Set(d, least)));
-      }
-      possible |= Bits(d, hn::Not(hn::Lt(possible_lanes, hn::Zero(d)))) << i;
-      full |= Bits(d, hn::Not(hn::Lt(full_lanes, hn::Zero(d)))) << i;
-    }
-    possible &= Mask4x4(first_x >> 4, last_x >> 4, first_y >> 4, last_y >> 4);
-    for (; possible != 0; possible &= possible - 1) {
-      const auto n = static_cast<std::uint32_t>(__builtin_ctz(possible));
-      const int x = static_cast<int>(n & 3) * 16, y = static_cast<int>(n >> 2) * 16;
-      const std::uint32_t cells = Mask4x4((first_x - x) >> 2, (last_x - x) >> 2, (first_y - y) >> 2, (last_y - y) >> 2);
-      if ((full >> n & 1) != 0) {
-        FullArea(cells, tx + x, ty + y);
-      } else {
-        const std::int32_t start[3] = {area_e[0][n], area_e[1][n], area_e[2][n]};
-        Area(start, a, b, kTileBound, cells, tx + x, ty + y);
-      }
-    }
+  // ---- slots
+  // A triangle, as its cells need it. Small triangles of a batch have one each, all others use the first.
+  struct Slot {
+    alignas(64) std::int32_t step[3][16];  // edge functions: from the first sample of a cell to its others
+    alignas(64) double z_step[16];         // depth: the same
+    alignas(64) float z_step_float[16];    // only where depth is not exact
+    double z, z_x, z_y, z_error;
+    int origin_x, origin_y;  // where depth is z
+    std::int32_t a[3], b[3];
+    std::int32_t most[3], least[3];  // largest and smallest change of an edge function within a cell; most: and `doubt`
+    std::int32_t doubt;              // twice the bound of the integers
+    std::uint32_t position;  // in the draw
+    bool slow_depth, clip;
+    bool special;  // not drawn as most are
+
+    double DepthAt(int x, int y) const { return z + (z_x * (x - origin_x) + z_y * (y - origin_y)); }
+  };
+  // An area of 16 x 16 samples: of a small triangle, or a sixteenth of a tile.
+  struct Area {
+    alignas(64) std::int32_t edge[3][16];  // at the first sample of each cell
+    alignas(64) double z[16];              // the same
+    int x, y;                              // the first sample
+    std::size_t offset;                    // of the first sample
+    const std::uint32_t* cell_offset;      // and from there to each cell
+
+    int CellX(std::size_t cell) const { return x + static_cast<int>(cell & 3) * 4; }
+    int CellY(std::size_t cell) const { return y + static_cast<int>(cell >> 2) * 4; }
+  };
+  HWY_INLINE void Place(Area& area, int x, int y) const {
+    area.x = x, area.y = y;
+    area.offset = canvas_.offset_of(x, y);
+    area.cell_offset = cell_offsets_[(x >> 2 & 1) + (y >> 1 & 2)];
   }
 
-  void SetUpLanes(const std::int32_t (&a)[3], const std::int32_t (&b)[3]) {
+  HWY_INLINE void LoadSteps(Slot& slot) {
     const CellInt d;
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto va = hn::Set(d, a[k]), vb = hn::Set(d, b[k]);
-      for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
-        hn::Store(hn::Add(hn::Mul(va, hn::Load(d, kColumn + i)), hn::Mul(vb, hn::Load(d, kRow + i))), d,
-                  edge_[k].sample + i);
+      const auto a = hn::Set(d, slot.a[k]), b = hn::Set(d, slot.b[k]);
+      for (std::size_t i = 0; i < 16; i += kCellLanes) {
+        hn::Store(hn::Add(hn::Mul(a, hn::Load(d, kColumn + i)), hn::Mul(b, hn::Load(d, kRow + i))), d,
+                  slot.step[k] + i);
       }
     }
   }
+  HWY_INLINE void LoadPlane(Slot& slot, std::uint32_t lane) {
+    const Batch& batch = *batch_;
+    slot.position = batch.first + lane;
+    if (!kDepth) return;
+    slot.origin_x = batch.origin_x(lane), slot.origin_y = batch.origin_y(lane);
+    slot.z = batch.z[lane], slot.z_x = batch.z_x[lane], slot.z_y = batch.z_y[lane];
+    slot.z_error = batch.z_error[lane];
+    slot.slow_depth = (batch.slow_depth >> lane & 1) != 0;
+    slot.clip = (batch.clip >> lane & 1) != 0;
+    slot.special = kCount || ordered_ || slot.slow_depth || slot.clip;
+    const CellDouble dd;
+    const auto zx = hn::Set(dd, slot.z_x), zy = hn::Set(dd, slot.z_y);
+    for (std::size_t i = 0; i < 16; i += hn::Lanes(dd)) {
+      hn::Store(hn::Add(hn::Mul(zx, hn::Load(dd, kColumnDouble + i)), hn::Mul(zy, hn::Load(dd, kRowDouble + i))), dd,
+                slot.z_step + i);
+    }
+    LoadFloatSteps(slot);
+  }
+  HWY_INLINE void LoadBatchEdges(Slot& slot, std::uint32_t lane) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      slot.a[k] = batch_->a[k][lane], slot.b[k] = batch_->b[k][lane], slot.most[k] = batch_->most[k][lane];
+    }
+    slot.doubt = 2 * batch_->bound[lane];
+  }
 
-  // Draws the cells of the area that an edge function does not exclude. (x, y) is the area's first sample.
-  void Area(const std::int32_t (&e)[3], const std::int32_t (&a)[3], const std::int32_t (&b)[3], std::int32_t bound,
-            std::uint32_t cells, int x, int y) {
+  HWY_INLINE void LoadFloatSteps(Slot& slot) const {
+    if (kExactDepth) return;
+    for (std::size_t i = 0; i < 16; ++i) slot.z_step_float[i] = static_cast<float>(slot.z_step[i]);
+  }
+
+  // The edges and depths at the cells of an area whose first sample is (x, y), where the edges have the values e and
+  // depth is z.
+  // Returns the cells that are not outside an edge, and in `full` those that are within all.
+  HWY_INLINE std::uint32_t SetUpArea(const Slot& slot, const std::int32_t (&e)[3], double z, int x, int y, Area& area,
+                                     std::uint32_t* full) const {
     const CellInt d;
-    const CellUint du;
-    std::uint32_t possible = 0;
-    for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
+    std::uint32_t outside = 0, cut = 0;
+    for (std::size_t i = 0; i < 16; i += kCellLanes) {
+      auto outside_lanes = hn::Zero(d), cut_lanes = outside_lanes;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto value = hn::Add(hn::Set(d, e[k]), hn::ShiftLeft<2>(hn::Load(d, slot.step[k] + i)));
+        hn::Store(value, d, area.edge[k] + i);
+        outside_lanes =
+            hn::Or(outside_lanes, hn::Add(value, hn::Set(d, slot.most[k])));  // negative if one is
+        cut_lanes = hn::Or(cut_lanes, hn::Add(value, hn::Set(d, slot.least[k])));
+      }
+      outside |= Bits(d, hn::Lt(outside_lanes, hn::Zero(d))) << i;
+      cut |= Bits(d, hn::Lt(cut_lanes, hn::Zero(d))) << i;
+    }
+    *full = ~cut & 0xFFFF;
+    Place(area, x, y);
+    if (kDepth) {
+      const CellDouble dd;
+      const auto start = hn::Set(dd, z), four = hn::Set(dd, 4.0);
+      for (std::size_t i = 0; i < 16; i += hn::Lanes(dd)) {
+        hn::Store(hn::Add(start, hn::Mul(four, hn::Load(dd, slot.z_step + i))), dd, area.z + i);
+      }
+    }
+    return ~outside & 0xFFFF;
+  }
+
+  // ---- within 4 x 4 cells: noted, and drawn with the rest of the batch
+  HWY_INLINE void Small(std::uint32_t lane) {
+    const CellInt d;
+    const Batch& batch = *batch_;
+    Slot& slot = slots_[lane];
+    Area& area = areas_[lane];
+    std::uint32_t outside = 0;
+    for (std::size_t i = 0; i < 16; i += kCellLanes) {
+      const auto column = hn::Load(d, kColumn + i), row = hn::Load(d, kRow + i);
       auto lanes = hn::Zero(d);
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto value = hn::Add(hn::Set(d, e[k]), hn::ShiftLeft<2>(hn::Load(d, edge_[k].sample + i)));
-        hn::Store(value, d, edge_[k].cell + i);
-        const std::int32_t most = 3 * (std::max(a[k], 0) + std::max(b[k], 0)) + 2 * bound;
-        lanes = hn::Or(lanes, hn::Add(value, hn::Set(d, most)));
+        const auto step = hn::Add(hn::Mul(hn::Set(d, batch.a[k][lane]), column), hn::Mul(hn::Set(d, batch.b[k][lane]), row));
+        const auto value = hn::Add(hn::Set(d, batch.e[k][lane]), hn::ShiftLeft<2>(step));
+        hn::Store(step, d, slot.step[k] + i);
+        hn::Store(value, d, area.edge[k] + i);
+        lanes = hn::Or(lanes, hn::Add(value, hn::Set(d, batch.most[k][lane])));  // negative if one is
       }
-      possible |= Bits(d, hn::Not(hn::Lt(lanes, hn::Zero(d)))) << i;
+      outside |= Bits(d, hn::Lt(lanes, hn::Zero(d))) << i;
     }
-    possible &= cells;
-    if (possible == 0) return;
-    possible = Visible(possible, x, y);
-
-    auto largest = hn::Zero(du);  // as unsigned, the largest value of all lanes: is one within the bound below 0?
-    for (std::uint32_t rest = possible; rest != 0; rest &= rest - 1) {
-      const auto n = static_cast<std::uint32_t>(__builtin_ctz(rest));
-      const int cell_x = x + static_cast<int>(n & 3) * 4, cell_y = y + static_cast<int>(n >> 2) * 4;
-      const std::size_t offset = bin_offset(cell_x - job_.bin_x, cell_y - job_.bin_y);
-      const double z = kVisibility ? DepthAt(cell_x, cell_y) : 0;
-      for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
-        const auto m = LeastEdge(n, i);
-        largest = hn::Max(largest, hn::BitCast(du, m));
-        Draw(hn::Not(hn::Lt(m, hn::Zero(d))), cell_x, cell_y, offset, i, z);
+    if (kDepth) {
+      const CellDouble dd;
+      const auto z = hn::Set(dd, batch.z[lane]), four = hn::Set(dd, 4.0);
+      const auto zx = hn::Set(dd, batch.z_x[lane]), zy = hn::Set(dd, batch.z_y[lane]);
+      for (std::size_t i = 0; i < 16; i += hn::Lanes(dd)) {
+        const auto step =
+            hn::Add(hn::Mul(zx, hn::Load(dd, kColumnDouble + i)), hn::Mul(zy, hn::Load(dd, kRowDouble + i)));
+        hn::Store(step, dd, slot.z_step + i);
+        hn::Store(hn::Add(z, hn::Mul(four, step)), dd, area.z + i);
       }
+      LoadFloatSteps(slot);
+      slot.z_error = batch.z_error[lane];
+      slot.slow_depth = (batch.slow_depth >> lane & 1) != 0;
+      slot.clip = (batch.clip >> lane & 1) != 0;
+      slot.special = kCount || ordered_ || slot.slow_depth || slot.clip;
     }
-    const auto doubtful = hn::Set(du, static_cast<std::uint32_t>(-2 * bound));
-    if (HWY_UNLIKELY(!hn::AllTrue(du, hn::Lt(largest, doubtful)))) Settle(possible, bound, x, y);
-    if (kVisibility) UpdateFar(possible, x, y);
+    slot.doubt = 2 * batch.bound[lane];
+    slot.position = batch.first + lane;
+    const int x = batch.first_x[lane] & ~3, y = batch.first_y[lane] & ~3;
+    Place(area, x, y);
+    const int columns = (batch.last_x[lane] - x) >> 2, rows = (batch.last_y[lane] - y) >> 2;
+    std::uint32_t cells = ~outside & ((0x2222u << columns) - 0x1111u) & ((0x10u << (4 * rows)) - 1);
+    if (bands_.sets > 1) cells &= OwnedCells(y);
+    partly_.Append(lane, cells);
   }
 
-  // The least of the three biased edge values in lanes i... of cell n.
-  HWY_INLINE hn::Vec<CellInt> LeastEdge(std::uint32_t n, std::size_t i) const {
+  // The cells of an area that lie in bands of this set.
+  std::uint32_t OwnedCells(int y) const {
+    std::uint32_t owned = 0;
+    for (int row = 0; row < 4; ++row) {
+      if (bands_.owns((y + 4 * row) >> kTileLog2)) owned |= 0xFu << (4 * row);
+    }
+    return owned;
+  }
+
+  // ---- within 8 x 8 blocks
+  void Medium(std::uint32_t lane) {
+    Slot& slot = slots_[0];
+    LoadBatchEdges(slot, lane);
+    LoadSteps(slot);
+    LoadPlane(slot, lane);
+    LoadAreaSteps(slot);
+    const std::int32_t e[3] = {batch_->e[0][lane], batch_->e[1][lane], batch_->e[2][lane]};
+    Tile(slot, lane, e, batch_->first_x[lane] & ~7, batch_->first_y[lane] & ~7);
+  }
+
+  // ---- larger: tile by tile, with a scale for 64 samples
+  void Large(std::uint32_t lane) {
+    Slot& slot = slots_[0];
+    double a[3], b[3], c[3], most[3];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double ua = batch_->edge_a[i][lane], ub = batch_->edge_b[i][lane];
+      const double scale =
+          std::ldexp(1.0, kTileExponent - std::ilogb(std::max({std::fabs(ua), std::fabs(ub), 0x1p-400})));
+      a[i] = ua * scale, b[i] = ub * scale, c[i] = batch_->edge_c[i][lane] * scale;
+      slot.a[i] = static_cast<std::int32_t>(std::nearbyint(a[i]));
+      slot.b[i] = static_cast<std::int32_t>(std::nearbyint(b[i]));
+      most[i] = (kTileSize - 1) * (std::max(a[i], 0.0) + std::max(b[i], 0.0)) + 1;  // 1: far more than E's error here
+    }
+    slot.doubt = 2 * (kExactCoverage ? kTileBound : 0);
+    for (std::size_t k = 0; k < 3; ++k) slot.most[k] = 3 * (std::max(slot.a[k], 0) + std::max(slot.b[k], 0)) + slot.doubt;
+    LoadSteps(slot);
+    LoadPlane(slot, lane);
+    LoadAreaSteps(slot);
+    const int first_x = batch_->first_x[lane] & ~(kTileSize - 1), first_y = batch_->first_y[lane] & ~(kTileSize - 1);
+    const int last_x = batch_->last_x[lane] - (SUREFILL_PLANT(tile_border) ? 1 : 0), last_y = batch_->last_y[lane];
+    const bool hides = Hides(slot);
+    const double dip = kDepth ? Dip(slot, kTileSize - 1) - Slack(slot) : 0;
+
+    const DoubleTag d;
+    constexpr int kLanes = static_cast<int>(hn::MaxLanes(DoubleTag()));
+    alignas(64) double e[3][kBatch];
+    const auto columns = hn::Load(d, kTileSteps);
+    for (int ty = first_y; ty <= last_y; ty += kTileSize) {
+      if (!bands_.owns(ty >> kTileLog2)) continue;
+      for (int tx = first_x; tx <= last_x; tx += kTileSize * kLanes) {
+        const auto column = hn::Add(hn::Set(d, tx), columns);
+        const auto x = hn::Add(column, hn::Set(d, job_.sample.x));
+        const double y = ty + job_.sample.y;
+        auto possible = hn::Le(column, hn::Set(d, last_x));
+        for (std::size_t i = 0; i < 3; ++i) {
+          const auto value = hn::Add(hn::Add(hn::Mul(hn::Set(d, a[i]), x), hn::Set(d, b[i] * y)), hn::Set(d, c[i]));
+          hn::Store(value, d, e[i]);
+          possible = hn::And(possible, hn::Ge(value, hn::Set(d, -most[i])));
+        }
+        if (hides) {
+          const hn::Rebind<float, DoubleTag> df;
+          const auto dx = hn::Sub(column, hn::Set(d, slot.origin_x));
+          const auto nearest =
+              hn::Add(hn::Mul(hn::Set(d, slot.z_x), dx), hn::Set(d, slot.z_y * (ty - slot.origin_y) + (slot.z + dip)));
+          const auto far = hn::PromoteTo(d, hn::LoadU(df, canvas_.tile_far + canvas_.tile_of(tx, ty)));
+          possible = hn::AndNot(with_identifiers_ ? hn::Gt(nearest, far) : hn::Ge(nearest, far), possible);
+        }
+        for (std::uint32_t tiles = Bits(d, possible); tiles != 0; tiles &= tiles - 1) {
+          const auto n = static_cast<std::size_t>(__builtin_ctz(tiles));
+          std::int32_t at[3];
+          for (std::size_t i = 0; i < 3; ++i) {
+            at[i] =
+                static_cast<std::int32_t>(std::nearbyint(std::clamp(e[i][n], -kEdgeLimit, kEdgeLimit))) - slot.doubt / 2;
+          }
+          const int x0 = tx + static_cast<int>(n) * kTileSize;
+          if (Tile(slot, lane, at, x0, ty)) UpdateTileFar(x0, ty);
+        }
+      }
+    }
+  }
+  alignas(64) static constexpr double kTileSteps[8] = {0, 64, 128, 192, 256, 320, 384, 448};
+
+  void LoadAreaSteps(Slot& slot) {
     const CellInt d;
-    const auto e0 = hn::Add(hn::Set(d, edge_[0].cell[n]), hn::Load(d, edge_[0].sample + i));
-    const auto e1 = hn::Add(hn::Set(d, edge_[1].cell[n]), hn::Load(d, edge_[1].sample + i));
-    const auto e2 = hn::Add(hn::Set(d, edge_[2].cell[n]), hn::Load(d, edge_[2].sample + i));
+    for (std::size_t k = 0; k < 3; ++k) {
+      slot.least[k] = 3 * (std::min(slot.a[k], 0) + std::min(slot.b[k], 0));
+      for (std::size_t i = 0; i < 16; i += kCellLanes)
+        hn::Store(hn::ShiftLeft<4>(hn::Load(d, slot.step[k] + i)), d, area_step_[k] + i);
+    }
+  }
+
+  // The 64 x 64 samples from (x, y) on, a multiple of 8, where the edges have the values e. True if block_far has
+  // changed.
+  bool Tile(const Slot& slot, std::uint32_t lane, const std::int32_t (&e)[3], int x, int y) {
+    const CellInt d;
+    const int first_x = batch_->first_x[lane] - x, last_x = batch_->last_x[lane] - x;
+    const int first_y = batch_->first_y[lane] - y, last_y = batch_->last_y[lane] - y;
+    alignas(64) std::int32_t at[3][16];
+    std::uint32_t outside = 0;
+    for (std::size_t i = 0; i < 16; i += kCellLanes) {
+      auto lanes = hn::Zero(d);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto value = hn::Add(hn::Set(d, e[k]), hn::Load(d, area_step_[k] + i));
+        hn::Store(value, d, at[k] + i);
+        lanes = hn::Or(lanes, hn::Add(value, hn::Set(d, 5 * slot.most[k])));
+      }
+      outside |= Bits(d, hn::Lt(lanes, hn::Zero(d))) << i;
+    }
+    std::uint32_t possible = ~outside & Mask4x4(first_x >> 4, last_x >> 4, first_y >> 4, last_y >> 4);
+    const bool hides = Hides(slot);
+    const bool prefetch = (batch_->medium >> lane & 1) != 0;
+    const double dip = kDepth ? Dip(slot, SUREFILL_PLANT(hierarchical_z) ? 6 : 7) : 0;
+    alignas(32) const double dips[4] = {dip, dip + 8 * slot.z_x, dip + 8 * slot.z_y, dip + 8 * (slot.z_x + slot.z_y)};
+    std::size_t blocks = 0;
+    std::uint32_t block_list[64];  // whole blocks: block_far may become less
+    for (; possible != 0; possible &= possible - 1) {
+      const auto n = static_cast<std::uint32_t>(__builtin_ctz(possible));
+      const int area_x = static_cast<int>(n & 3) * 16, area_y = static_cast<int>(n >> 2) * 16;
+      const std::int32_t start[3] = {at[0][n], at[1][n], at[2][n]};
+      Area& area = areas_[n];
+      std::uint32_t full;
+      std::uint32_t cells = SetUpArea(slot, start, kDepth ? slot.DepthAt(x + area_x, y + area_y) : 0, x + area_x,
+                                      y + area_y, area, &full);
+      if (first_x >= area_x + 4 || last_x < area_x + 12 || first_y >= area_y + 4 || last_y < area_y + 12) {
+        cells &= Mask4x4((first_x - area_x) >> 2, (last_x - area_x) >> 2, (first_y - area_y) >> 2,
+                         (last_y - area_y) >> 2);
+      }
+      if (bands_.sets > 1) cells &= OwnedCells(y + area_y);
+      if (hides) {
+        const std::size_t block = canvas_.block_of(x + area_x, y + area_y);
+        const auto below = static_cast<std::size_t>(canvas_.blocks_x());
+        cells &= kCellsOfBlocks[VisibleBlocks(area.z[0], dips, canvas_.block_far + block, below)];
+        // Of each whole block, its first cell.
+        std::uint32_t whole = cells & full;
+        whole &= whole >> 1;
+        whole &= (whole >> 4) & 0x0505;
+        for (; whole != 0; whole &= whole - 1) {
+          const auto cell = static_cast<std::size_t>(__builtin_ctz(whole));
+          block_list[blocks++] = static_cast<std::uint32_t>(block + (cell >> 3) * below + (cell >> 1 & 1));
+        }
+      }
+      if (kDepth && prefetch) {
+        for (std::uint32_t rest = cells; rest != 0; rest &= rest - 1) {
+          const auto cell = static_cast<std::size_t>(__builtin_ctz(rest));
+          const std::size_t at_cell = area.offset + area.cell_offset[cell];
+          hwy::Prefetch(canvas_.depth + at_cell);
+          if (kWinner) hwy::Prefetch(canvas_.winner + at_cell);
+        }
+      }
+      partly_.Append(n, cells & ~full);
+      wholly_.Append(n, cells & full);
+    }
+    DrawCells(0);
+    DrawWholeCells();
+    for (std::size_t i = 0; i < blocks; ++i) UpdateBlockFar(block_list[i]);
+    return blocks != 0;
+  }
+  // Which of an area's four blocks may hold something farther than the triangle: bit 0 the upper left one, then to the
+  // right, then below. dips: from the depth at the area's first sample to less than any in each block.
+  HWY_INLINE std::uint32_t VisibleBlocks(double z, const double (&dips)[4], const float* far, std::size_t below) const {
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
+    const hn::CappedTag<double, 4> d;
+    const hn::CappedTag<float, 4> df;
+    const hn::CappedTag<float, 2> row;
+    const auto nearest = hn::Add(hn::Set(d, z), hn::Load(d, dips));
+    const auto there = hn::PromoteTo(d, hn::Combine(df, hn::LoadU(row, far + below), hn::LoadU(row, far)));
+    return ~Bits(d, with_identifiers_ ? hn::Gt(nearest, there) : hn::Ge(nearest, there)) & 15;
+#else
+    std::uint32_t visible = 0;
+    for (std::size_t i = 0; i < 4; ++i) {
+      const double nearest = z + dips[i], there = far[(i >> 1) * below + (i & 1)];
+      visible |= static_cast<std::uint32_t>(!(with_identifiers_ ? nearest > there : nearest >= there)) << i;
+    }
+    return visible;
+#endif
+  }
+  // The cells of a set of blocks.
+  static constexpr std::uint16_t kCellsOfBlocks[16] = {0x0000, 0x0033, 0x00CC, 0x00FF, 0x3300, 0x3333, 0x33CC, 0x33FF,
+                                                       0xCC00, 0xCC33, 0xCCCC, 0xCCFF, 0xFF00, 0xFF33, 0xFFCC, 0xFFFF};
+
+  // ---- cells
+  // The least of the three edge values in lanes i ... of a cell.
+  HWY_INLINE hn::Vec<CellInt> LeastEdge(const Slot& slot, const Area& area, std::size_t cell, std::size_t i) const {
+    const CellInt d;
+    const auto e0 = hn::Add(hn::Set(d, area.edge[0][cell]), hn::Load(d, slot.step[0] + i));
+    const auto e1 = hn::Add(hn::Set(d, area.edge[1][cell]), hn::Load(d, slot.step[1] + i));
+    const auto e2 = hn::Add(hn::Set(d, area.edge[2][cell]), hn::Load(d, slot.step[2] + i));
     return hn::Min(hn::Min(e0, e1), e2);
   }
+  // -2 bound <= value < 0.
+  HWY_INLINE hn::Mask<CellUint> Doubtful(hn::Vec<CellInt> value, std::int32_t doubt) const {
+    const CellInt d;
+    const CellUint du;
+    const auto bound = hn::Set(d, doubt);
+    return hn::Lt(hn::BitCast(du, hn::Add(value, bound)), hn::BitCast(du, bound));
+  }
 
-  void FullArea(std::uint32_t cells, int x, int y) {
+  // Draws the cells that an edge may cut: the lanes that are surely inside, and in the end those within the bound of an
+  // edge. slots: 1 if each area has its own slot, 0 if all have the first.
+  void DrawCells(std::size_t slots) {
+    const CellInt d;
+    const CellUint du;
+    auto doubtful = hn::Lt(hn::Zero(du), hn::Zero(du));
+    for (std::size_t n = 0; n < partly_.size; ++n) {
+      const std::size_t number = partly_.items[n] >> 4, cell = partly_.items[n] & 15;
+      const Slot& slot = slots_[number * slots];
+      const Area& area = areas_[number];
+      const std::size_t offset = area.offset + area.cell_offset[cell];
+      for (std::size_t i = 0; i < 16; i += kCellLanes) {
+        const auto value = LeastEdge(slot, area, cell, i);
+        if (kExactCoverage) doubtful = hn::Or(doubtful, Doubtful(value, slot.doubt));
+        Fragments<false>(slot, area, cell, hn::Not(hn::Lt(value, hn::Zero(d))), offset, i);
+      }
+    }
+    if (HWY_UNLIKELY(!hn::AllFalse(du, doubtful))) Settle(slots);
+    partly_.size = 0;
+  }
+
+  // Draws the cells that all edges hold whole.
+  void DrawWholeCells() {
     const CellInt d;
     const auto all = hn::Eq(hn::Zero(d), hn::Zero(d));
-    cells = Visible(cells, x, y);
-    for (std::uint32_t rest = cells; rest != 0; rest &= rest - 1) {
-      const auto n = static_cast<std::uint32_t>(__builtin_ctz(rest));
-      const int cell_x = x + static_cast<int>(n & 3) * 4, cell_y = y + static_cast<int>(n >> 2) * 4;
-      const std::size_t offset = bin_offset(cell_x - job_.bin_x, cell_y - job_.bin_y);
-      const double z = kVisibility ? DepthAt(cell_x, cell_y) : 0;
-      for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) Draw(all, cell_x, cell_y, offset, i, z);
+    for (std::size_t n = 0; n < wholly_.size; ++n) {
+      const Area& area = areas_[wholly_.items[n] >> 4];
+      const std::size_t cell = wholly_.items[n] & 15;
+      const std::size_t offset = area.offset + area.cell_offset[cell];
+      for (std::size_t i = 0; i < 16; i += kCellLanes) Fragments<true>(slots_[0], area, cell, all, offset, i);
     }
-    if (kVisibility) UpdateFar(cells, x, y);
+    wholly_.size = 0;
   }
 
   // ---- uncertain lanes: within the bound of an edge
-  HWY_NOINLINE void Settle(std::uint32_t cells, std::int32_t bound, int x, int y) {
-    const CellInt d;
+  HWY_NOINLINE void Settle(std::size_t slots) {
     const CellUint du;
-    const auto doubtful = hn::Set(du, static_cast<std::uint32_t>(-2 * bound));
-    for (; cells != 0; cells &= cells - 1) {
-      const auto n = static_cast<std::uint32_t>(__builtin_ctz(cells));
-      const int cell_x = x + static_cast<int>(n & 3) * 4, cell_y = y + static_cast<int>(n >> 2) * 4;
-      for (std::size_t i = 0; i < 16; i += hn::Lanes(d)) {
-        const auto value = hn::BitCast(du, LeastEdge(n, i));
-        for (std::uint32_t bits = Bits(du, hn::Not(hn::Lt(value, doubtful))) << i; bits != 0; bits &= bits - 1) {
-          const int k = __builtin_ctz(bits), sx = cell_x + (k & 3), sy = cell_y + (k >> 2);
-          if (sx < job_.region.x0 || sx >= job_.region.x1 || sy < job_.region.y0 || sy >= job_.region.y1) continue;
-          if (Exact().covers({sx + 0.5, sy + 0.5}, shift_, statistics_)) SlowFragment(sx, sy);
+    for (std::size_t n = 0; n < partly_.size; ++n) {
+      const std::size_t number = partly_.items[n] >> 4, cell = partly_.items[n] & 15;
+      const Slot& slot = slots_[number * slots];
+      const Area& area = areas_[number];
+      const int cell_x = area.CellX(cell), cell_y = area.CellY(cell);
+      for (std::size_t i = 0; i < 16; i += kCellLanes) {
+        auto bits = Bits(du, Doubtful(LeastEdge(slot, area, cell, i), slot.doubt)) << i;
+        for (; bits != 0; bits &= bits - 1) {
+          const int k = __builtin_ctz(bits), x = cell_x + (k & 3), y = cell_y + (k >> 2);
+          if (InRegion(x, y) && Exact(slot).covers(Position(x, y), shift_, statistics_)) SlowFragment(slot, x, y);
         }
       }
     }
   }
+  bool InRegion(int x, int y) const {
+    return x >= job_.region.x0 && x < job_.region.x1 && y >= job_.region.y0 && y < job_.region.y1;
+  }
+  SamplePosition Position(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
 
-  Triangle& Exact() {
-    if (!exact_ready_) {
+  // The triangle of the slot for exact arithmetic.
+  Triangle& Exact(const Slot& slot) {
+    if (exact_position_ != slot.position) {
       Statistics unused;
-      exact_.set_up(batch_.vertices.Get(0, lane_), batch_.vertices.Get(1, lane_), batch_.vertices.Get(2, lane_),
-                    unused);
-      exact_ready_ = true;
+      exact_.set_up(VertexOf(draw_, slot.position, 0), VertexOf(draw_, slot.position, 1),
+                    VertexOf(draw_, slot.position, 2), unused);
+      exact_position_ = slot.position;
     }
     return exact_;
   }
 
   // A covered sample that is drawn by exact arithmetic alone.
-  HWY_NOINLINE void SlowFragment(int x, int y) {
-    const std::size_t offset = bin_offset(x - job_.bin_x, y - job_.bin_y);
+  HWY_NOINLINE void SlowFragment(const Slot& slot, int x, int y) {
+    const std::size_t offset = canvas_.offset_of(x, y);
     float z = 0;
-    if (kVisibility) {
-      if (!Exact().depth({x + 0.5, y + 0.5}, draw_.depth_mode, &z, statistics_)) return;
+    if (kDepth) {
+      if (!Exact(slot).depth(Position(x, y), draw_.depth_mode, &z, statistics_)) return;
       if (job_.greater) z = 0.0f - z;
     }
-    if (kCount) ++job_.buffers.count[offset];
-    if (kVisibility && Passes(z, offset)) {
-      job_.buffers.depth[offset] = z;
-      job_.buffers.winner[offset] = job_.first_ordinal + position_;
-    }
+    if (kCount) ++canvas_.count[offset];
+    if (kDepth && Passes(slot.position, z, offset)) Store(slot.position, z, offset);
+  }
+  void Store(std::uint32_t position, float z, std::size_t offset) {
+    if (kWinner) canvas_.winner[offset] = job_.first_ordinal + position;
+    if (draw_.depth_write) canvas_.depth[offset] = z;
   }
 
-  // V1 and V3: nearer, or as near as a triangle of this draw with a larger identifier.
-  bool Passes(float z, std::size_t offset) const {
-    if (z < job_.buffers.depth[offset]) return true;
-    const std::uint32_t winner = job_.buffers.winner[offset];
-    if (!(z == job_.buffers.depth[offset]) || winner == kNoTriangle || winner < job_.first_ordinal) return false;
-    const std::uint32_t other = winner - job_.first_ordinal;
-    if (SUREFILL_PLANT(merge_order)) return position_ < other;
-    return with_identifiers_ ? draw_.identifiers[position_] < draw_.identifiers[other] : position_ < other;
+  // V1, V3 and M5: nearer, or as near as a triangle of this draw with a larger identifier; with depth write off, nearer,
+  // and among the triangles of this draw the largest identifier. Uncertain samples come late: order is no help.
+  bool Passes(std::uint32_t position, float z, std::size_t offset) const {
+    const float stored = canvas_.depth[offset];
+    if (!kWinner) return z < stored;
+    const std::uint32_t winner = canvas_.winner[offset], other = winner - job_.first_ordinal;
+    const bool of_this_draw = winner != kNoTriangle && winner >= job_.first_ordinal;
+    if (!draw_.depth_write) return z < stored && (!of_this_draw || !Before(position, other));
+    if (z < stored) return true;
+    return z == stored && of_this_draw && Before(position, other);
+  }
+  // Is the triangle's identifier the smaller one?
+  bool Before(std::uint32_t position, std::uint32_t other) const {
+    if (SUREFILL_PLANT(merge_order)) return position < other;
+    return with_identifiers_ ? draw_.identifiers[position] < draw_.identifiers[other] : position < other;
   }
 
-  // ---- fragments of lanes i ... of a cell
-  HWY_INLINE void Draw(hn::Mask<CellInt> covered, int cell_x, int cell_y, std::size_t offset, std::size_t i, double z) {
-    const CellInt d;
-    if (HWY_UNLIKELY(partial_)) covered = hn::And(covered, InRegion(cell_x, cell_y, i));
-    if constexpr (!kVisibility) {
-      if constexpr (kCount) Count(covered, offset + i);
+  // ---- fragments of lanes i ... of a cell. kSkip: leave early where nothing is seen, which pays where that is likely.
+  template <bool kSkip>
+  HWY_INLINE void Fragments(const Slot& slot, const Area& area, std::size_t cell, hn::Mask<CellInt> covered,
+                            std::size_t offset, std::size_t i) {
+    if (HWY_UNLIKELY(partial_)) covered = hn::And(covered, LanesInRegion(area.CellX(cell), area.CellY(cell), i));
+    if constexpr (!kDepth) {
+      Count(covered, offset + i);
       return;
     }
     const CellFloat df;
     auto lanes = hn::RebindMask(df, covered);
-    if (HWY_UNLIKELY(slow_depth_)) {
-      SlowLanes(Bits(d, covered) << i, cell_x, cell_y);
+    const double z = area.z[cell];
+    // low <= the stored depth <= high, and it is both if they are equal.
+    const auto low = kExactDepth ? RoundDepths(z - slot.z_error, slot.z_step + i)
+                                 : hn::Add(hn::Set(df, static_cast<float>(z)), hn::Load(df, slot.z_step_float + i));
+    if (HWY_UNLIKELY(slot.special)) {
+      SpecialFragments(slot, covered, low, area.CellX(cell), area.CellY(cell), offset, i, z);
       return;
     }
-    // low <= the stored depth <= high, and it is both if they are equal.
-    auto low = RoundDepths(z - z_error_, z_lane_ + i);
-    float* const depth = job_.buffers.depth + offset + i;
+    float* const depth = canvas_.depth + offset + i;
     const auto before = hn::Load(df, depth);
-    if (!kCount && !with_identifiers_ &&
-        !(clip_ && draw_.depth_mode == DepthMode::clamp)) {  // clamping may bring it nearer
-      lanes = hn::And(lanes, hn::Lt(low, before));
-      if (hn::AllFalse(df, lanes)) return;
+    lanes = hn::And(lanes, hn::Lt(low, before));
+    if (kSkip && hn::AllFalse(df, lanes)) return;
+    const auto high = kExactDepth ? RoundDepths(z + slot.z_error, slot.z_step + i) : low;
+    const auto known = hn::And(lanes, hn::Eq(low, high));
+    hn::Store(hn::IfThenElse(known, low, before), df, depth);
+    if constexpr (kWinner) {
+      const CellUint du;
+      hn::BlendedStore(hn::Set(du, job_.first_ordinal + slot.position), hn::RebindMask(du, known), du,
+                       canvas_.winner + offset + i);
     }
-    auto high = RoundDepths(z + z_error_, z_lane_ + i);
-    if (HWY_UNLIKELY(clip_)) {
+    const auto unknown = hn::AndNot(known, lanes);
+    if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) SlowLanes(slot, Bits(df, unknown) << i, area.CellX(cell), area.CellY(cell));
+  }
+
+  // The same where fragments count, may be clipped or clamped, have no known bound, or more than depth says who is seen.
+  HWY_NOINLINE void SpecialFragments(const Slot& slot, hn::Mask<CellInt> covered, hn::Vec<CellFloat> low, int cell_x,
+                                     int cell_y, std::size_t offset, std::size_t i, double z) {
+    [[maybe_unused]] const CellInt d;
+    const CellFloat df;
+    if (slot.slow_depth) {
+      SlowLanes(slot, Bits(d, covered) << i, cell_x, cell_y);
+      return;
+    }
+    auto lanes = hn::RebindMask(df, covered);
+    auto high = RoundDepths(z + slot.z_error, slot.z_step + i);
+    if (slot.clip) {
       const auto least = hn::Set(df, near_), most = hn::Set(df, far_);
-      if (draw_.depth_mode == DepthMode::clamp) {
+      if (clamps_) {
         low = hn::Min(hn::Max(low, least), most);
         high = hn::Min(hn::Max(high, least), most);
       } else {
         const auto out = hn::Or(hn::Lt(high, least), hn::Gt(low, most));
         const auto in = hn::And(hn::Gt(low, least), hn::Lt(high, most));
         lanes = hn::AndNot(out, lanes);
-        SlowLanes(Bits(df, hn::AndNot(in, lanes)) << i, cell_x, cell_y);
+        SlowLanes(slot, Bits(df, hn::AndNot(in, lanes)) << i, cell_x, cell_y);
         lanes = hn::And(lanes, in);
       }
     }
-    const auto known = hn::Eq(low, high);
-    const auto unknown = hn::AndNot(known, lanes);
-    if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) SlowLanes(Bits(df, unknown) << i, cell_x, cell_y);
-    lanes = hn::And(lanes, known);
+    const auto unknown = hn::AndNot(hn::Eq(low, high), lanes);
+    SlowLanes(slot, Bits(df, unknown) << i, cell_x, cell_y);
+    lanes = hn::AndNot(unknown, lanes);
     if constexpr (kCount) Count(hn::RebindMask(d, lanes), offset + i);
-    if (HWY_UNLIKELY(with_identifiers_)) {
-      auto tied = Bits(df, hn::And(lanes, hn::Eq(low, before)));
-      for (; tied != 0; tied &= tied - 1) {
-        const std::size_t at = offset + i + static_cast<std::size_t>(__builtin_ctz(tied));
-        if (Passes(job_.buffers.depth[at], at)) job_.buffers.winner[at] = job_.first_ordinal + position_;
+    if (!ordered_) {
+      lanes = hn::And(lanes, hn::Lt(low, hn::Load(df, canvas_.depth + offset + i)));
+      hn::BlendedStore(low, lanes, df, canvas_.depth + offset + i);
+      if constexpr (kWinner) {
+        const CellUint du;
+        hn::BlendedStore(hn::Set(du, job_.first_ordinal + slot.position), hn::RebindMask(du, lanes), du,
+                         canvas_.winner + offset + i);
       }
+      return;
     }
-    lanes = hn::And(lanes, hn::Lt(low, before));
-    const CellUint du;
-    hn::BlendedStore(low, lanes, df, depth);
-    hn::BlendedStore(hn::Set(du, job_.first_ordinal + position_), hn::RebindMask(du, lanes), du,
-                     job_.buffers.winner + offset + i);
+    alignas(64) float depths[kCellLanes];
+    hn::Store(low, df, depths);
+    for (std::uint32_t bits = Bits(df, lanes); bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(__builtin_ctz(bits));
+      if (Passes(slot.position, depths[k], offset + i + k)) Store(slot.position, depths[k], offset + i + k);
+    }
   }
 
-  HWY_NOINLINE void SlowLanes(std::uint32_t bits, int cell_x, int cell_y) {
+  HWY_NOINLINE void SlowLanes(const Slot& slot, std::uint32_t bits, int cell_x, int cell_y) {
     for (; bits != 0; bits &= bits - 1) {
       const int k = __builtin_ctz(bits);
-      SlowFragment(cell_x + (k & 3), cell_y + (k >> 2));
+      SlowFragment(slot, cell_x + (k & 3), cell_y + (k >> 2));
     }
   }
 
@@ -394,10 +706,10 @@ class Rasterizer {
     const CellInt d;
     const CellUint du;
     const auto one = hn::BitCast(du, hn::VecFromMask(d, covered));  // -1 where covered
-    hn::Store(hn::Sub(hn::Load(du, job_.buffers.count + at), one), du, job_.buffers.count + at);
+    hn::Store(hn::Sub(hn::Load(du, canvas_.count + at), one), du, canvas_.count + at);
   }
 
-  HWY_INLINE hn::Mask<CellInt> InRegion(int cell_x, int cell_y, std::size_t i) const {
+  HWY_INLINE hn::Mask<CellInt> LanesInRegion(int cell_x, int cell_y, std::size_t i) const {
     const CellInt d;
     const auto x = hn::Add(hn::Set(d, cell_x), hn::Load(d, kColumn + i));
     const auto y = hn::Add(hn::Set(d, cell_y), hn::Load(d, kRow + i));
@@ -406,70 +718,67 @@ class Rasterizer {
                    hn::And(hn::Lt(hn::Set(d, r.y0 - 1), y), hn::Lt(y, hn::Set(d, r.y1))));
   }
 
-  // ---- hierarchical z: blocks of 8 x 8 samples, four in an area of 16 x 16 if the area begins at a block
-  static constexpr std::uint32_t kBlockCells[4] = {0x0033, 0x00CC, 0x3300, 0xCC00};
-
-  // Takes out the cells of blocks in which every sample is nearer than the triangle.
-  HWY_INLINE std::uint32_t Visible(std::uint32_t cells, int x, int y) const {
-    if (!kVisibility || kCount || slow_depth_ || ((x | y) & 7) != 0 || (batch_.small >> lane_ & 1) != 0) return cells;
-    if (clip_ && draw_.depth_mode == DepthMode::clamp) return cells;
-    const double reach = SUREFILL_PLANT(hierarchical_z) ? 6 : 7;
-    const double dip = std::min(0.0, reach * z_x_) + std::min(0.0, reach * z_y_) - z_error_;
-    for (int n = 0; n < 4; ++n) {
-      if ((cells & kBlockCells[n]) == 0) continue;
-      const int block_x = x + (n & 1) * 8, block_y = y + (n >> 1) * 8;
-      const auto nearest = static_cast<float>(DepthAt(block_x, block_y) + dip);
-      const float far = job_.buffers.block_far[BlockOf(block_x, block_y)];
-      if (with_identifiers_ ? nearest > far : nearest >= far) cells &= ~kBlockCells[n];
-    }
-    return cells;
+  // ---- hierarchical z
+  // Can a block or tile be skipped because all it holds is nearer? Not where fragments count, or move.
+  bool Hides(const Slot& slot) const { return kDepth && !kCount && !slot.slow_depth && !(slot.clip && clamps_); }
+  // From the depth at a first sample to less than any within `reach` steps each way, errors included; the last term is
+  // for a first sample outside the triangle's box.
+  double Dip(const Slot& slot, double reach) const {
+    return std::min(0.0, reach * slot.z_x) + std::min(0.0, reach * slot.z_y) - slot.z_error -
+           0x1p-40 * reach * (std::fabs(slot.z_x) + std::fabs(slot.z_y));
+  }
+  // The same for the depth at a tile's first sample, wherever the triangle's origin is.
+  double Slack(const Slot& slot) const {
+    return 0x1p-40 * (std::fabs(slot.z) + (std::fabs(slot.z_x) + std::fabs(slot.z_y)) * kMaxTargetSize);
   }
 
-  void UpdateFar(std::uint32_t cells, int x, int y) {
-    if (((x | y) & 7) != 0 || (batch_.small >> lane_ & 1) != 0) return;
+  HWY_INLINE void UpdateBlockFar(std::size_t block) {
     const CellFloat df;
-    for (int n = 0; n < 4; ++n) {
-      if ((cells & kBlockCells[n]) == 0) continue;
-      const std::size_t block = BlockOf(x + (n & 1) * 8, y + (n >> 1) * 8);
-      const float* depth = job_.buffers.depth + block * 64;
-      auto far = hn::Load(df, depth);
-      for (std::size_t i = hn::Lanes(df); i < 64; i += hn::Lanes(df)) far = hn::Max(far, hn::Load(df, depth + i));
-      job_.buffers.block_far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
-    }
+    const float* const depth = canvas_.depth + block * 64;
+    auto far = hn::Load(df, depth);
+    for (std::size_t i = kCellLanes; i < 64; i += kCellLanes) far = hn::Max(far, hn::Load(df, depth + i));
+    canvas_.block_far[block] = hn::GetLane(hn::MaxOfLanes(df, far));
   }
-  std::size_t BlockOf(int x, int y) const { return bin_offset(x - job_.bin_x, y - job_.bin_y) / 64; }
 
-  alignas(64) static constexpr double kColumnDouble[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-  alignas(64) static constexpr double kRowDouble[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+  void UpdateTileFar(int x, int y) {
+    const hn::CappedTag<float, 8> df;
+    const float* row = canvas_.block_far + canvas_.block_of(x, y);
+    auto far = hn::Set(df, -std::numeric_limits<float>::infinity());
+    for (int r = 0; r < 8; ++r, row += canvas_.blocks_x()) {
+      for (std::size_t i = 0; i < 8; i += hn::Lanes(df)) far = hn::Max(far, hn::LoadU(df, row + i));
+    }
+    canvas_.tile_far[canvas_.tile_of(x, y)] = hn::GetLane(hn::MaxOfLanes(df, far));
+  }
 
-  const BinJob& job_;
-  const surefill::Draw& draw_;
+  const DrawJob& job_;
+  const Draw& draw_;
+  const Canvas canvas_;
+  const BandSet bands_;
   Statistics& statistics_;
-  TieShift shift_;
-  bool partial_, with_identifiers_;
-  float near_, far_;
+  const TieShift shift_;
+  bool partial_ = false, with_identifiers_ = false, ordered_ = false, clamps_ = false;
+  float near_ = 0, far_ = 1;
 
-  const BinEntry* entries_ = nullptr;
-  Batch batch_;
-  EdgeLanes edge_[3];
-  std::uint32_t lane_ = 0, position_ = 0;
-  int origin_x_ = 0, origin_y_ = 0;
-  double z_ = 0, z_x_ = 0, z_y_ = 0, z_error_ = 0;
-  bool slow_depth_ = false, clip_ = false;
-  alignas(64) double z_lane_[16];
+  const Batch* batch_ = nullptr;
+  Slot slots_[kBatch];
+  Area areas_[16];
+  alignas(64) std::int32_t area_step_[3][16];  // edge functions: from the first sample of a tile to those of its areas
+  std::uint32_t cell_offsets_[4][16];
+  CellList partly_, wholly_;
   Triangle exact_;
-  bool exact_ready_ = false;
+  std::uint32_t exact_position_ = kNoTriangle;
 };
 
-void Rasterize(const BinJob& job, Statistics& statistics) {
-  if (job.buffers.depth == nullptr && job.buffers.count == nullptr) {
-    Rasterizer<false, false>(job, statistics).Run();
-  } else if (job.buffers.depth == nullptr) {
-    Rasterizer<false, true>(job, statistics).Run();
-  } else if (job.buffers.count == nullptr) {
-    Rasterizer<true, false>(job, statistics).Run();
+void Rasterize(const DrawJob& job, std::span<const Batch> batches, const Canvas& canvas, BandSet bands,
+               Statistics& statistics) {
+  if (canvas.depth == nullptr) {
+    if (canvas.count != nullptr) Rasterizer<false, false, true>(job, canvas, bands, statistics).Run(batches);
+  } else if (canvas.winner == nullptr) {
+    Rasterizer<true, false, false>(job, canvas, bands, statistics).Run(batches);
+  } else if (canvas.count == nullptr) {
+    Rasterizer<true, true, false>(job, canvas, bands, statistics).Run(batches);
   } else {
-    Rasterizer<true, true>(job, statistics).Run();
+    Rasterizer<true, true, true>(job, canvas, bands, statistics).Run(batches);
   }
 }
 

@@ -7,12 +7,13 @@
 // The vector code includes Highway only after the loop above.
 #include "block-inl.hpp"
 #include "setup-inl.hpp"
+#include "shade-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
 
 const Kernels* ThisTarget() {
-  static const Kernels kernels{FindBoxes, Rasterize, hwy::TargetName(HWY_TARGET)};
+  static const Kernels kernels{SetUp, Rasterize, Shade, hwy::TargetName(HWY_TARGET)};
   return &kernels;
 }
 

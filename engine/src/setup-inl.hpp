@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Batches of triangles: facing and boxes (phase one), edge functions as scaled integers and depth planes (phase two).
+// Eight triangles of a draw become a batch: boxes, facing, edge functions as scaled integers, depth planes.
 // Included once for each instruction set by kernels.cpp.
 #if defined(SUREFILL_SRC_SETUP_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREFILL_SRC_SETUP_INL_HPP
@@ -11,7 +11,7 @@
 
 #include <cstring>
 
-#include "bin.hpp"
+#include "canvas.hpp"
 #include "hwy/highway.h"
 #include "planted.hpp"
 
@@ -25,20 +25,6 @@ using FloatTag = hn::Rebind<float, DoubleTag>;
 using IntTag = hn::Rebind<std::int32_t, DoubleTag>;
 using Double = hn::Vec<DoubleTag>;
 using Float = hn::Vec<FloatTag>;
-
-// The vertices of a batch, vertex k of triangle l at [k][4 l].
-struct BatchVertices {
-  alignas(64) float v[3][4 * kBatch];
-
-  void Load(const Draw& draw, std::uint32_t lane, std::uint32_t triangle) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      std::memcpy(&v[k][4 * lane], &draw.vertices[draw.indices[std::size_t{3} * triangle + k]], sizeof(Vertex));
-    }
-  }
-  Vertex Get(std::size_t k, std::uint32_t lane) const {
-    return {v[k][4 * lane], v[k][4 * lane + 1], v[k][4 * lane + 2], v[k][4 * lane + 3]};
-  }
-};
 
 // The low Lanes bits: which lanes are set.
 template <class D, class M>
@@ -57,64 +43,76 @@ HWY_INLINE std::uint32_t Bits(D d, M mask) {
 #endif
 }
 
-// What a triangle of which all W > 0 reaches along one axis, as in reach() but in float32: division and subtraction are
-// monotonic and the sample coordinates i + 1/2 are float32 values, so again no margin is needed. first, last: pixels,
-// clamped to [begin, end); the box is empty if last < first.
-HWY_INLINE void PixelRange(Float c0, Float c1, Float c2, Float w0, Float w1, Float w2, int begin, int end,
-                           std::int32_t* first, std::int32_t* last) {
-  const FloatTag d;
-  const IntTag di;
-  const Float q0 = hn::Div(c0, w0), q1 = hn::Div(c1, w1), q2 = hn::Div(c2, w2);
-  const Float low = hn::Sub(hn::Min(hn::Min(q0, q1), q2), hn::Set(d, 0.5f));
-  const Float high = hn::Sub(hn::Max(hn::Max(q0, q1), q2), hn::Set(d, 0.5f));
-  const Float least = hn::Set(d, static_cast<float>(begin)), most = hn::Set(d, static_cast<float>(end));
-  const Float f = hn::Ceil(hn::Min(hn::Max(low, least), most));
-  const Float l = hn::Floor(hn::Max(hn::Min(high, hn::Sub(most, hn::Set(d, 1.0f))), hn::Sub(least, hn::Set(d, 1.0f))));
-  hn::Store(hn::ConvertTo(di, f), di, first);
-  hn::Store(hn::ConvertTo(di, l), di, last);
-}
-
-// Lanes of a batch that have the same state: one set of coordinates in double.
+// The three vertices of as many triangles as FloatTag has lanes.
 struct Corner {
   Float x, y, z, w;
 };
-HWY_INLINE Corner LoadCorner(const BatchVertices& vertices, std::size_t k, std::size_t lane) {
-  const FloatTag d;
+
+// vertices[l]: the vertex of lane l, four floats.
+template <class D>
+HWY_INLINE Corner LoadCorner(D d, const Vertex* const* vertices) {
   Corner corner;
-  hn::LoadInterleaved4(d, &vertices.v[k][4 * lane], corner.x, corner.y, corner.z, corner.w);
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (hn::MaxLanes(D()) >= 4) {
+    const hn::Repartition<double, D> d64;
+    const auto row = [&](std::size_t l) {
+      const hn::CappedTag<float, 4> d4;
+      const auto low = hn::LoadU(d4, &vertices[l]->x);
+      if constexpr (hn::MaxLanes(D()) == 8) {
+        return hn::Combine(d, hn::LoadU(d4, &vertices[l + 4]->x), low);
+      } else {
+        return low;
+      }
+    };
+    const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+    const auto xy01 = hn::BitCast(d64, hn::InterleaveLower(d, r0, r1));
+    const auto xy23 = hn::BitCast(d64, hn::InterleaveLower(d, r2, r3));
+    const auto zw01 = hn::BitCast(d64, hn::InterleaveUpper(d, r0, r1));
+    const auto zw23 = hn::BitCast(d64, hn::InterleaveUpper(d, r2, r3));
+    corner.x = hn::BitCast(d, hn::InterleaveLower(d64, xy01, xy23));
+    corner.y = hn::BitCast(d, hn::InterleaveUpper(d64, xy01, xy23));
+    corner.z = hn::BitCast(d, hn::InterleaveLower(d64, zw01, zw23));
+    corner.w = hn::BitCast(d, hn::InterleaveUpper(d64, zw01, zw23));
+    return corner;
+  }
+#endif
+  alignas(16) float lanes[4 * hn::MaxLanes(D())];
+  for (std::size_t l = 0; l < hn::Lanes(d); ++l) std::memcpy(lanes + 4 * l, vertices[l], sizeof(Vertex));
+  hn::LoadInterleaved4(d, lanes, corner.x, corner.y, corner.z, corner.w);
   return corner;
 }
 
-// Lanes where a W is not positive.
-HWY_INLINE hn::Mask<FloatTag> MixedLanes(const Corner (&v)[3]) {
-  const Float zero = hn::Zero(FloatTag());
-  return hn::Not(hn::And(hn::And(hn::Gt(v[0].w, zero), hn::Gt(v[1].w, zero)), hn::Gt(v[2].w, zero)));
+// What a triangle of which all W > 0 reaches along one axis, as in reach() but in float32: division and subtraction are
+// monotonic and the sample coordinates i + offset are float32 values, so again no margin is needed. first, last: pixels,
+// clamped to [begin, end); the box is empty if last < first.
+HWY_INLINE void PixelRange(Float c0, Float c1, Float c2, Float w0, Float w1, Float w2, double offset, int begin,
+                           int end, std::int32_t* first, std::int32_t* last) {
+  const FloatTag d;
+  const IntTag di;
+  const Float q0 = hn::Div(c0, w0), q1 = hn::Div(c1, w1), q2 = hn::Div(c2, w2);
+  const Float shift = hn::Set(d, static_cast<float>(offset));
+  const Float low = hn::Sub(hn::Min(hn::Min(q0, q1), q2), shift);
+  const Float high = hn::Sub(hn::Max(hn::Max(q0, q1), q2), shift);
+  const Float least = hn::Set(d, static_cast<float>(begin)), most = hn::Set(d, static_cast<float>(end));
+  const Float f = hn::Ceil(hn::Min(hn::Max(low, least), most));
+  const Float l = hn::Floor(hn::Max(hn::Min(high, hn::Sub(most, hn::Set(d, 1.0f))), hn::Sub(least, hn::Set(d, 1.0f))));
+  // Integers of at most 15 bits: the sum with 1.5 * 2^23 has them in its low bits.
+  const Float magic = hn::Set(d, 0x1.8p23f);
+  const auto bits = hn::BitCast(di, magic);
+  hn::Store(hn::Sub(hn::BitCast(di, hn::Add(f, magic)), bits), di, first);
+  hn::Store(hn::Sub(hn::BitCast(di, hn::Add(l, magic)), bits), di, last);
 }
 
-// Boxes of the lanes, in pixels: [x0, x1) x [y0, y1).
-struct BatchBoxes {
-  alignas(64) std::int32_t first_x[kBatch], last_x[kBatch], first_y[kBatch], last_y[kBatch];
-
-  void Compute(const Corner (&v)[3], hn::Mask<FloatTag> mixed, std::size_t lane, const PixelBox& limits) {
-    const FloatTag d;
-    const Float one = hn::Set(d, 1.0f), zero = hn::Zero(d);
-    Float x[3], y[3], w[3];
-    for (std::size_t k = 0; k < 3; ++k) {  // a division that is harmless, where the result is not used
-      x[k] = hn::IfThenElse(mixed, zero, v[k].x);
-      y[k] = hn::IfThenElse(mixed, zero, v[k].y);
-      w[k] = hn::IfThenElse(mixed, one, v[k].w);
-    }
-    PixelRange(x[0], x[1], x[2], w[0], w[1], w[2], limits.x0, limits.x1, first_x + lane, last_x + lane);
-    PixelRange(y[0], y[1], y[2], w[0], w[1], w[2], limits.y0, limits.y1, first_y + lane, last_y + lane);
-  }
-  PixelBox Get(std::size_t lane) const { return {first_x[lane], first_y[lane], last_x[lane] + 1, last_y[lane] + 1}; }
-};
-
-HWY_INLINE PixelBox MixedBox(const BatchVertices& vertices, std::uint32_t lane, const PixelBox& limits) {
-  return screen_box(vertices.Get(0, lane), vertices.Get(1, lane), vertices.Get(2, lane), limits, 0.5, 0.5);
+// Vertex k of a triangle of the draw.
+inline const Vertex& VertexOf(const Draw& draw, std::uint32_t triangle, std::size_t k) {
+  return draw.vertices[draw.indices[std::size_t{3} * triangle + k]];
 }
 
-bool AttributesFinite(const Draw& draw, std::uint32_t triangle) {
+inline bool AllFinite(const Vertex& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+HWY_INLINE bool AttributesFinite(const Draw& draw, std::uint32_t triangle) {
   for (const AttributeArray& attribute : draw.attributes) {
     const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -127,75 +125,21 @@ bool AttributesFinite(const Draw& draw, std::uint32_t triangle) {
   return true;
 }
 
-// Boxes of the triangles [first, first + count), count <= kBatch; empty if the triangle is dropped or reaches no
-// sample.
-void FindBoxes(const Draw& draw, bool check_attributes, std::uint32_t first, std::uint32_t count,
-               const PixelBox& limits, PixelBox* out, Statistics& statistics) {
-  const FloatTag df;
-  BatchVertices vertices;
-  for (std::uint32_t lane = 0; lane < kBatch; ++lane) vertices.Load(draw, lane, first + (lane < count ? lane : 0));
-  BatchBoxes boxes;
-  std::uint32_t finite = 0, mixed = 0;
-  for (std::uint32_t lane = 0; lane < kBatch; lane += static_cast<std::uint32_t>(hn::Lanes(df))) {
-    const Corner v[3] = {LoadCorner(vertices, 0, lane), LoadCorner(vertices, 1, lane), LoadCorner(vertices, 2, lane)};
-    const auto largest = hn::Set(df, std::numeric_limits<float>::max());
-    auto finite_lanes = hn::Le(hn::Abs(v[0].x), largest);
-    for (const Corner& corner : v) {
-      for (const Float c : {corner.x, corner.y, corner.z, corner.w}) {
-        finite_lanes = hn::And(finite_lanes, hn::Le(hn::Abs(c), largest));
-      }
-    }
-    const auto mixed_lanes = MixedLanes(v);
-    boxes.Compute(v, hn::Or(mixed_lanes, hn::Not(finite_lanes)), lane, limits);
-    finite |= Bits(df, finite_lanes) << lane;
-    mixed |= Bits(df, mixed_lanes) << lane;
-  }
-  statistics.triangles += count;
-  for (std::uint32_t lane = 0; lane < count; ++lane) {
-    out[lane] = {0, 0, 0, 0};
-    if (!limits.empty()) {  // else the boxes may lie anywhere, up to the ends of int
-      out[lane] = (mixed >> lane & 1) != 0 ? MixedBox(vertices, lane, limits) : boxes.Get(lane);
-    }
-    if ((finite >> lane & 1) == 0 || (check_attributes && !AttributesFinite(draw, first + lane))) {
-      ++statistics.dropped;
-      out[lane] = {0, 0, 0, 0};
-    } else if (out[lane].empty()) {
-      ++statistics.outside;
-    }
-  }
-}
-
-// Phase two: triangles of a batch, ready for their cells. All quantities are those of the triangle with D > 0: edges of
-// a triangle with D < 0 are negated.
-struct Batch {
-  BatchVertices vertices;
-  BatchBoxes boxes;
-  alignas(64) double a[3][kBatch], b[3][kBatch], c[3][kBatch];
-  // Small triangles, whose box lies within 4 x 4 cells: scaled so that max(|a|, |b|) is in [2^24, 2^25), and rounded,
-  // with the value at the centre of the box's first cell's first sample.
-  alignas(64) std::int32_t small_a[3][kBatch], small_b[3][kBatch], small_e[3][kBatch];
-  // Depth at that sample, its steps, and a bound of the error at any sample of the box; smaller is nearer (negated for
-  // greater).
-  alignas(64) double z[kBatch], z_x[kBatch], z_y[kBatch], z_error[kBatch];
-  std::uint32_t live, small, slow_depth, clip, negative, degenerate;
-
-  // The first sample of the first cell.
-  int OriginX(std::size_t lane) const { return boxes.first_x[lane] & ~3; }
-  int OriginY(std::size_t lane) const { return boxes.first_y[lane] & ~3; }
-};
-
 // A power of two that brings max(|a|, |b|) into [2^exponent, 2^(exponent + 1)). Where both are 0 (a constant edge, c !=
-// 0), one that makes c huge.
-HWY_INLINE Double Scale(Double a, Double b, int exponent) {
+// 0), one that makes c huge. exponent: added to 2046, in the exponent's place.
+HWY_INLINE Double Scale(Double a, Double b, hn::Vec<hn::RebindToUnsigned<DoubleTag>> exponent) {
   const DoubleTag d;
   const hn::RebindToUnsigned<DoubleTag> du;
   const Double largest = hn::Max(hn::Max(hn::Abs(a), hn::Abs(b)), hn::Set(d, 0x1p-400));
   const auto field = hn::And(hn::BitCast(du, largest), hn::Set(du, 0x7FF0000000000000u));
-  return hn::BitCast(d, hn::Sub(hn::Set(du, static_cast<std::uint64_t>(2046 + exponent) << 52), field));
+  return hn::BitCast(d, hn::Sub(exponent, field));
 }
 
+// v to the nearest integer, for |v| <= 2^31: the sum with 1.5 * 2^52 has it in its low bits.
 HWY_INLINE hn::Vec<IntTag> RoundToInt(Double v) {
-  return hn::DemoteTo(IntTag(), hn::Round(v));
+  const hn::RebindToUnsigned<DoubleTag> du;
+  const hn::RebindToUnsigned<IntTag> du32;
+  return hn::BitCast(IntTag(), hn::TruncateTo(du32, hn::BitCast(du, hn::Add(v, hn::Set(DoubleTag(), 0x1.8p52)))));
 }
 
 constexpr double kEdgeLimit = 0x1p30;  // beyond it, no step within 64 samples changes the sign
@@ -205,83 +149,125 @@ constexpr int kTileExponent = 22;      // 63 * 2 * 2^23 < 2^30
 // for the start, and less than 2^-8 for the double arithmetic before (docs/precision.md).
 constexpr std::int32_t kSmallBound = 16, kTileBound = 64;
 
-// The signs of D in the uncertain lanes, exactly; degenerate lanes are noted in batch.degenerate.
-HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(Batch& batch, std::uint32_t first_lane, std::uint32_t uncertain,
-                                            hn::Mask<DoubleTag> negative, Statistics& statistics) {
+// p - q == r without rounding error, lane by lane, for r computed as p - q.
+HWY_INLINE hn::Mask<DoubleTag> DifferenceIsExact(Double p, Double q, Double r) {
+  return hn::And(hn::Eq(hn::Sub(p, r), q), hn::Eq(hn::Add(r, q), p));
+}
+
+// The signs of D in the uncertain lanes, exactly; `degenerate` gets the lanes where it is 0.
+HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(const Draw& draw, std::uint32_t first, std::uint32_t uncertain,
+                                            hn::Mask<DoubleTag> negative, std::uint32_t& degenerate,
+                                            Statistics& statistics) {
   const DoubleTag dd;
   alignas(64) double signs[kBatch];
   hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
-  for (uncertain &= batch.live; uncertain != 0; uncertain &= uncertain - 1) {
+  for (; uncertain != 0; uncertain &= uncertain - 1) {
     const auto lane = static_cast<std::uint32_t>(__builtin_ctz(uncertain));
-    const EdgeFunction edge(batch.vertices.Get(1, lane), batch.vertices.Get(2, lane));
-    const int sign = determinant_sign(edge, batch.vertices.Get(0, lane), statistics);
-    signs[lane - first_lane] = sign < 0 ? -1 : 1;
-    if (sign == 0) batch.degenerate |= 1u << lane;
+    const EdgeFunction edge(VertexOf(draw, first + lane, 1), VertexOf(draw, first + lane, 2));
+    const int sign = determinant_sign(edge, VertexOf(draw, first + lane, 0), statistics);
+    signs[lane] = sign < 0 ? -1 : 1;
+    if (sign == 0) degenerate |= 1u << lane;
   }
   return hn::Lt(hn::Load(dd, signs), hn::Zero(dd));
 }
 
-// Takes degenerate and culled lanes out of batch.live (C1, F2). Each triangle is counted in its home bin, the one its
-// box begins in.
-HWY_INLINE void CullAndCount(const BinJob& job, const BinEntry* entries, std::uint32_t count, Batch& batch,
-                             Statistics& statistics) {
-  const std::uint32_t all = (1u << count) - 1;
-  const Draw& draw = *job.draw;
-  std::uint32_t culled = 0;
-  if (draw.cull != Cull::none) {
-    const std::uint32_t front = draw.front_face == FrontFace::clockwise ? ~batch.negative : batch.negative;
-    culled = (draw.cull == Cull::front ? front : ~front) & all & ~batch.degenerate;
+// Lanes whose integer edges are exact: every coefficient without rounding error, a and b integers after scaling, c a
+// multiple of 2^-10. Their values at samples are then multiples of 2^-10 below 2^42: without rounding error in double.
+HWY_NOINLINE hn::Mask<DoubleTag> IntegerEdges(const Double (&x)[3], const Double (&y)[3], const Double (&w)[3],
+                                              const Double (&a)[3], const Double (&b)[3], const Double (&c)[3],
+                                              const Double (&scale)[3]) {
+  const DoubleTag dd;
+  auto exact = hn::Eq(hn::Zero(dd), hn::Zero(dd));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    exact = hn::And(exact, DifferenceIsExact(hn::Mul(y[j], w[k]), hn::Mul(w[j], y[k]), a[i]));
+    exact = hn::And(exact, DifferenceIsExact(hn::Mul(w[j], x[k]), hn::Mul(x[j], w[k]), b[i]));
+    exact = hn::And(exact, DifferenceIsExact(hn::Mul(x[j], y[k]), hn::Mul(y[j], x[k]), c[i]));
+    const Double as = hn::Mul(a[i], scale[i]), bs = hn::Mul(b[i], scale[i]);
+    const Double cs = hn::Mul(c[i], hn::Mul(scale[i], hn::Set(dd, 0x1p10)));
+    exact = hn::And(exact, hn::And(hn::Eq(hn::Round(as), as), hn::Eq(hn::Round(bs), bs)));
+    exact = hn::And(exact, hn::And(hn::Eq(hn::Round(cs), cs), hn::Lt(hn::Abs(cs), hn::Set(dd, 0x1p52))));
   }
-  std::uint32_t home = 0;
-  for (std::uint32_t lane = 0; lane < count; ++lane) home |= static_cast<std::uint32_t>(entries[lane].home) << lane;
-  const auto ones = [home](std::uint32_t lanes) {
-    return static_cast<std::uint64_t>(__builtin_popcount(lanes & home));
-  };
-  statistics.degenerate += ones(batch.degenerate);
-  statistics.culled += ones(culled);
-  statistics.rasterized += ones(all & ~batch.degenerate & ~culled);
-  batch.live &= ~(batch.degenerate | culled);
+  return exact;
 }
 
-// Sets up `count` entries. Lanes whose box in the region is empty are not live.
-HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_t count, bool depth, Batch& batch,
-                        Statistics& statistics) {
+// Sets up the triangles [first, first + count) of the draw.
+void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& batch, Statistics& statistics) {
   const DoubleTag dd;
+  const hn::RebindToUnsigned<DoubleTag> du;
   const FloatTag df;
   const IntTag di;
   const Draw& draw = *job.draw;
+  const std::uint32_t all = (1u << count) - 1;
+  const Vertex* vertices[3][kBatch];
   for (std::uint32_t lane = 0; lane < kBatch; ++lane) {
     const std::uint32_t from = SUREFILL_PLANT(batch_lane) && lane == 5 ? 4 : lane;
-    batch.vertices.Load(draw, lane, job.chunk_begin + entries[lane < count ? from : 0].number);
+    for (std::size_t k = 0; k < 3; ++k) vertices[k][lane] = &VertexOf(draw, first + (lane < count ? from : 0), k);
   }
-  batch.live = (1u << count) - 1;
-  batch.small = batch.slow_depth = batch.clip = batch.negative = batch.degenerate = 0;
+  std::uint32_t finite = 0, reached = 0, negative = 0, degenerate = 0;
+  batch.first = first;
+  batch.small = batch.medium = batch.slow_depth = batch.clip = 0;
+  const TieShift shift = job.shift;
 
-  for (std::uint32_t lane = 0; lane < kBatch; lane += static_cast<std::uint32_t>(hn::Lanes(dd))) {
-    const Corner v[3] = {LoadCorner(batch.vertices, 0, lane), LoadCorner(batch.vertices, 1, lane),
-                         LoadCorner(batch.vertices, 2, lane)};
-    const auto zero = hn::Zero(df);
-    const auto mixed_lanes =
-        hn::Not(hn::And(hn::And(hn::Gt(v[0].w, zero), hn::Gt(v[1].w, zero)), hn::Gt(v[2].w, zero)));
-    batch.boxes.Compute(v, mixed_lanes, lane, job.region);
-    for (std::uint32_t m = Bits(df, mixed_lanes); m != 0; m &= m - 1) {
-      const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(m));
-      const PixelBox box = MixedBox(batch.vertices, l, job.region);
-      batch.boxes.first_x[l] = box.x0, batch.boxes.last_x[l] = box.x1 - 1;
-      batch.boxes.first_y[l] = box.y0, batch.boxes.last_y[l] = box.y1 - 1;
+  constexpr auto kLanes = static_cast<std::uint32_t>(hn::MaxLanes(DoubleTag()));
+  for (std::uint32_t lane = 0; lane < kBatch; lane += kLanes) {
+    const Corner v[3] = {LoadCorner(df, vertices[0] + lane), LoadCorner(df, vertices[1] + lane),
+                         LoadCorner(df, vertices[2] + lane)};
+    const Float zero = hn::Zero(df);
+    const auto front = hn::And(hn::And(hn::Gt(v[0].w, zero), hn::Gt(v[1].w, zero)), hn::Gt(v[2].w, zero));
+
+    // Boxes.
+    const PixelBox& region = job.region;
+    Float bx[3], by[3], bw[3];
+    for (std::size_t k = 0; k < 3; ++k) {  // a division that is harmless, where the result is not used
+      bx[k] = v[k].x, by[k] = v[k].y;
+      bw[k] = hn::IfThenElse(front, v[k].w, hn::Set(df, 1.0f));
     }
-    const auto first_x = hn::Load(di, batch.boxes.first_x + lane), last_x = hn::Load(di, batch.boxes.last_x + lane);
-    const auto first_y = hn::Load(di, batch.boxes.first_y + lane), last_y = hn::Load(di, batch.boxes.last_y + lane);
-    const auto origin_x = hn::AndNot(hn::Set(di, 3), first_x), origin_y = hn::AndNot(hn::Set(di, 3), first_y);
-    const auto reach_x = hn::Sub(last_x, origin_x), reach_y = hn::Sub(last_y, origin_y);
+    PixelRange(bx[0], bx[1], bx[2], bw[0], bw[1], bw[2], job.sample.x, region.x0, region.x1, batch.first_x + lane,
+               batch.last_x + lane);
+    PixelRange(by[0], by[1], by[2], bw[0], bw[1], bw[2], job.sample.y, region.y0, region.y1, batch.first_y + lane,
+               batch.last_y + lane);
+    std::uint32_t mixed = Bits(df, hn::Not(front)) & (all >> lane);
+    if (HWY_UNLIKELY(mixed != 0)) {
+      for (; mixed != 0; mixed &= mixed - 1) {
+        const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(mixed));
+        const Vertex &v0 = *vertices[0][l], &v1 = *vertices[1][l], &v2 = *vertices[2][l];
+        const bool numbers = AllFinite(v0) && AllFinite(v1) && AllFinite(v2);
+        const PixelBox box = !numbers ? region
+                                      : screen_box(v0, v1, v2, region, std::min(job.sample.x, job.sample.y),
+                                                   std::max(job.sample.x, job.sample.y));
+        batch.first_x[l] = box.x0, batch.last_x[l] = box.x1 - 1;
+        batch.first_y[l] = box.y0, batch.last_y[l] = box.y1 - 1;
+      }
+    }
+    const auto first_x = hn::Load(di, batch.first_x + lane), last_x = hn::Load(di, batch.last_x + lane);
+    const auto first_y = hn::Load(di, batch.first_y + lane), last_y = hn::Load(di, batch.last_y + lane);
     const auto empty = hn::Or(hn::Lt(last_x, first_x), hn::Lt(last_y, first_y));
-    const auto is_small = hn::Lt(hn::Max(reach_x, reach_y), hn::Set(di, 16));
-    batch.live &= ~(Bits(di, empty) << lane);
+    const std::uint32_t here = ~Bits(di, empty) & (all >> lane) & ((1u << kLanes) - 1);
+    reached |= here << lane;
+    if (here == 0) {
+      for (std::uint32_t l = lane; l < lane + kLanes; ++l)
+        finite |= static_cast<std::uint32_t>(AllFinite(*vertices[0][l]) && AllFinite(*vertices[1][l]) &&
+                                             AllFinite(*vertices[2][l]))
+                  << l;
+      continue;
+    }
+
+    // Classes, and where each lane's origin is.
+    const auto three = hn::Set(di, 3), seven = hn::Set(di, 7);
+    const auto cell_span = hn::Max(hn::Sub(last_x, hn::AndNot(three, first_x)), hn::Sub(last_y, hn::AndNot(three, first_y)));
+    const auto block_span =
+        hn::Max(hn::Sub(last_x, hn::AndNot(seven, first_x)), hn::Sub(last_y, hn::AndNot(seven, first_y)));
+    const auto is_small = hn::Lt(cell_span, hn::Set(di, 16));
     batch.small |= Bits(di, is_small) << lane;
+    batch.medium |= Bits(di, hn::Lt(block_span, hn::Set(di, kTileSize))) << lane;
+    const auto low_bits = hn::IfThenElse(is_small, three, seven);
+    const auto origin_x = hn::AndNot(low_bits, first_x), origin_y = hn::AndNot(low_bits, first_y);
 
     // Edge functions at the origin, and D = sum W_i E_i taken there, where little cancels.
-    const Double half = hn::Set(dd, 0.5), bound = hn::Set(dd, kEdgeErrorBound);
-    const Double px = hn::Add(hn::PromoteTo(dd, origin_x), half), py = hn::Add(hn::PromoteTo(dd, origin_y), half);
+    const Double bound = hn::Set(dd, kEdgeErrorBound);
+    const Double px = hn::Add(hn::PromoteTo(dd, origin_x), hn::Set(dd, job.sample.x));
+    const Double py = hn::Add(hn::PromoteTo(dd, origin_y), hn::Set(dd, job.sample.y));
     Double x[3], y[3], w[3], a[3], b[3], c[3], e[3], error[3], det = hn::Zero(dd), det_error = det;
     for (std::size_t k = 0; k < 3; ++k) {
       x[k] = hn::PromoteTo(dd, v[k].x);
@@ -293,78 +279,152 @@ HWY_NOINLINE void SetUp(const BinJob& job, const BinEntry* entries, std::uint32_
       a[i] = hn::Sub(hn::Mul(y[j], w[k]), hn::Mul(w[j], y[k]));
       b[i] = hn::Sub(hn::Mul(w[j], x[k]), hn::Mul(x[j], w[k]));
       c[i] = hn::Sub(hn::Mul(x[j], y[k]), hn::Mul(y[j], x[k]));
-      const Double ax = hn::Mul(a[i], px), by = hn::Mul(b[i], py);
-      e[i] = hn::Add(hn::Add(ax, by), c[i]);
-      error[i] = hn::Mul(bound, hn::Add(hn::Add(hn::Abs(ax), hn::Abs(by)), hn::Abs(c[i])));
+      const Double ax = hn::Mul(a[i], px), by_ = hn::Mul(b[i], py);
+      e[i] = hn::Add(hn::Add(ax, by_), c[i]);
+      error[i] = hn::Mul(bound, hn::Add(hn::Add(hn::Abs(ax), hn::Abs(by_)), hn::Abs(c[i])));
       const Double we = hn::Mul(w[i], e[i]);
       det = hn::Add(det, we);
       det_error = hn::Add(det_error, hn::Add(hn::Mul(hn::Abs(w[i]), error[i]), hn::Mul(bound, hn::Abs(we))));
     }
 
+    // NaN and infinity (B1): of X, Y and W they reach every coefficient that they enter, and so det, which no finite
+    // input can overflow.
+    Double z_magnitude = hn::Zero(dd);
+    for (const Corner& corner : v) z_magnitude = hn::Add(z_magnitude, hn::Abs(hn::PromoteTo(dd, corner.z)));
+    const std::uint32_t finite_lanes =
+        Bits(dd, hn::Lt(hn::Add(hn::Abs(det), z_magnitude), hn::Set(dd, std::numeric_limits<double>::infinity())));
+    finite |= finite_lanes << lane;
+
     // The sign of D: by its bound, else lane by lane. Edges of a triangle with D < 0 are negated, and so is det.
-    auto negative = hn::Lt(det, hn::Zero(dd));
-    const std::uint32_t uncertain = Bits(dd, hn::Not(hn::Gt(hn::Abs(det), det_error))) << lane;
-    if (HWY_UNLIKELY((uncertain & batch.live) != 0))
-      negative = ExactSigns(batch, lane, uncertain, negative, statistics);
-    batch.negative |= Bits(dd, negative) << lane;
-    const Double d_sign = hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0));
-    det = hn::Mul(det, d_sign);
+    auto is_negative = hn::Lt(det, hn::Zero(dd));
+    const std::uint32_t uncertain = Bits(dd, hn::Not(hn::Gt(hn::Abs(det), det_error))) & here & finite_lanes;
+    if (HWY_UNLIKELY(uncertain != 0)) {
+      std::uint32_t flat = 0;
+      is_negative = ExactSigns(draw, first + lane, uncertain, is_negative, flat, statistics);
+      degenerate |= flat << lane;
+    }
+    negative |= Bits(dd, is_negative) << lane;
+    const Double d_sign = hn::IfThenElse(is_negative, hn::Set(dd, -0.0), hn::Zero(dd));
+    det = hn::Xor(det, d_sign);
+    Double scale[3];
+    const auto exponent = hn::Add(hn::Set(du, static_cast<std::uint64_t>(2046 + kTileExponent) << 52),
+                                  hn::IfThenElseZero(hn::RebindMask(du, hn::Lt(hn::PromoteTo(dd, cell_span), hn::Set(dd, 16.0))),
+                                                     hn::Set(du, static_cast<std::uint64_t>(kSmallExponent - kTileExponent) << 52)));
+    for (std::size_t i = 0; i < 3; ++i) scale[i] = Scale(a[i], b[i], exponent);
+    hn::Mask<DoubleTag> integer = hn::Lt(det, det);
+    if (kExactCoverage) {
+      const Double as = hn::Mul(a[0], scale[0]);
+      if ((Bits(dd, hn::Eq(hn::Round(as), as)) & (reached >> lane)) != 0)
+        integer = IntegerEdges(x, y, w, a, b, c, scale);
+    }
+    const auto small_bound = hn::Set(di, SUREFILL_PLANT(small_bound) ? 2 : kSmallBound);
+    const auto rounded_bound =
+        kExactCoverage ? hn::IfThenElse(is_small, small_bound, hn::Set(di, kTileBound)) : hn::Zero(di);
+    const bool any_integer = !hn::AllFalse(dd, integer);
+    const auto edge_bound =
+        HWY_UNLIKELY(any_integer)
+            ? hn::DemoteTo(di, hn::IfThenZeroElse(integer, hn::PromoteTo(dd, rounded_bound)))
+            : rounded_bound;
+    hn::Store(edge_bound, di, batch.bound + lane);
     const Double limit = hn::Set(dd, kEdgeLimit);
     for (std::size_t i = 0; i < 3; ++i) {
-      a[i] = hn::Mul(a[i], d_sign);
-      b[i] = hn::Mul(b[i], d_sign);
-      e[i] = hn::Mul(e[i], d_sign);
-      const Double s = Scale(a[i], b[i], kSmallExponent);
-      hn::Store(RoundToInt(hn::Mul(a[i], s)), di, batch.small_a[i] + lane);
-      hn::Store(RoundToInt(hn::Mul(b[i], s)), di, batch.small_b[i] + lane);
-      hn::Store(RoundToInt(hn::Max(hn::Min(hn::Mul(e[i], s), limit), hn::Neg(limit))), di, batch.small_e[i] + lane);
-      hn::Store(a[i], dd, batch.a[i] + lane);
-      hn::Store(b[i], dd, batch.b[i] + lane);
-      hn::Store(hn::Mul(c[i], d_sign), dd, batch.c[i] + lane);
+      a[i] = hn::Xor(a[i], d_sign);
+      b[i] = hn::Xor(b[i], d_sign);
+      c[i] = hn::Xor(c[i], d_sign);
+      e[i] = hn::Xor(e[i], d_sign);
+      const auto step_x = RoundToInt(hn::Mul(a[i], scale[i])), step_y = RoundToInt(hn::Mul(b[i], scale[i]));
+      hn::Store(step_x, di, batch.a[i] + lane);
+      hn::Store(step_y, di, batch.b[i] + lane);
+      const auto none = hn::Zero(di), most = hn::Add(hn::Max(step_x, none), hn::Max(step_y, none));
+      hn::Store(hn::Add(hn::Add(most, hn::Add(most, most)), hn::Add(edge_bound, edge_bound)), di, batch.most[i] + lane);
+      const Double start = hn::Max(hn::Min(hn::Mul(e[i], scale[i]), limit), hn::Neg(limit));
+      auto value = hn::Sub(RoundToInt(start), edge_bound);
+      if (HWY_UNLIKELY(any_integer)) {
+        // Inside if E > 0, or E = 0 and the tie goes to this triangle: floor(E) >= 0, with a little taken off if it
+        // does not.
+        const Double along_x = hn::Mul(a[i], hn::Set(dd, shift.x)), along_y = hn::Mul(b[i], hn::Set(dd, shift.y));
+        const Double decides = shift.y_dominates ? along_y : along_x, else_decides = shift.y_dominates ? along_x : along_y;
+        const auto inside = hn::Or(hn::Gt(decides, hn::Zero(dd)),
+                                   hn::And(hn::Eq(decides, hn::Zero(dd)), hn::Gt(else_decides, hn::Zero(dd))));
+        const Double floor = hn::Floor(hn::Add(start, hn::IfThenZeroElse(inside, hn::Set(dd, -0x1p-12))));
+        value = hn::DemoteTo(di, hn::IfThenElse(integer, floor, hn::PromoteTo(dd, value)));
+      }
+      hn::Store(value, di, batch.e[i] + lane);
     }
-    if (!depth) continue;
+    if ((reached & ~batch.small) >> lane != 0) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        hn::Store(a[i], dd, batch.edge_a[i] + lane);
+        hn::Store(b[i], dd, batch.edge_b[i] + lane);
+        hn::Store(c[i], dd, batch.edge_c[i] + lane);
+      }
+    }
+    if (!job.depth) continue;
 
-    // The depth plane about the origin: z = sum Z_i E_i / D.
-    Double z = hn::Zero(dd), zx = z, zy = z, z_error = z, zx_size = z, zy_size = z;
+    // The depth plane about the origin: z = sum Z_i E_i / D. z_magnitude stands for each |Z_i| in the bounds.
+    Double z = hn::Zero(dd), zx = z, zy = z, edge_error = z, x_size = z, y_size = z;
     for (std::size_t i = 0; i < 3; ++i) {
-      const Double depth_i = hn::PromoteTo(dd, v[i].z), ze = hn::Mul(depth_i, e[i]);
-      const Double za = hn::Mul(depth_i, a[i]), zb = hn::Mul(depth_i, b[i]);
-      z = hn::Add(z, ze);
-      zx = hn::Add(zx, za);
-      zy = hn::Add(zy, zb);
-      z_error = hn::Add(z_error, hn::Add(hn::Mul(hn::Abs(depth_i), error[i]), hn::Mul(bound, hn::Abs(ze))));
-      zx_size = hn::Add(zx_size, hn::Abs(za));
-      zy_size = hn::Add(zy_size, hn::Abs(zb));
+      const Double depth_i = hn::PromoteTo(dd, v[i].z);
+      z = hn::Add(z, hn::Mul(depth_i, e[i]));
+      zx = hn::Add(zx, hn::Mul(depth_i, a[i]));
+      zy = hn::Add(zy, hn::Mul(depth_i, b[i]));
+      edge_error = hn::Add(edge_error, error[i]);
+      x_size = hn::Add(x_size, hn::Abs(a[i]));
+      y_size = hn::Add(y_size, hn::Abs(b[i]));
     }
     const Double smallest = hn::Sub(det, det_error);  // D is at least this; if it is not positive, nothing is known
     const Double inverse = hn::Div(hn::Set(dd, 1.0), det);
     z = hn::Mul(z, inverse);
     zx = hn::Mul(zx, inverse);
     zy = hn::Mul(zy, inverse);
-    const Double rx = hn::PromoteTo(dd, reach_x), ry = hn::PromoteTo(dd, reach_y);
-    // |z_real - z| at any sample of the box: numerators, determinant, and the rounding of the evaluation itself.
+    const Double rx = hn::PromoteTo(dd, hn::Sub(last_x, origin_x)), ry = hn::PromoteTo(dd, hn::Sub(last_y, origin_y));
+    // |z_real - z| at any sample of the box: numerators, determinant, and the rounding of the evaluation itself. An
+    // edge's error is at least `bound` times its value: twice that error bounds a product with it.
     const Double size = hn::Add(hn::Abs(z), hn::Add(hn::Mul(hn::Abs(zx), rx), hn::Mul(hn::Abs(zy), ry)));
-    const Double steps = hn::Mul(bound, hn::Add(hn::Mul(zx_size, rx), hn::Mul(zy_size, ry)));
-    const Double numerators = hn::Add(hn::Add(z_error, steps), hn::Mul(size, det_error));
-    const Double total = hn::Mul(hn::Add(hn::Div(numerators, smallest), hn::Mul(bound, size)),
+    const Double steps = hn::Mul(bound, hn::Add(hn::Mul(x_size, rx), hn::Mul(y_size, ry)));
+    const Double numerators = hn::Add(hn::Mul(z_magnitude, hn::Add(hn::Add(edge_error, edge_error), steps)),
+                                      hn::Mul(size, det_error));
+    // The first sample of an area may lie 63 samples before the origin, on the way to which sums can be larger.
+    const Double way = hn::Mul(hn::Set(dd, 63.0), hn::Add(hn::Abs(zx), hn::Abs(zy)));
+    const Double evaluation = hn::Mul(hn::Set(dd, 2 * kEdgeErrorBound), hn::Add(size, way));
+    const Double total = hn::Mul(hn::Add(hn::Div(numerators, smallest), evaluation),
                                  hn::Set(dd, SUREFILL_PLANT(depth_bound) ? 0x1p-8 : 1 + 0x1p-20));
     const auto known = hn::And(hn::Gt(smallest, hn::Zero(dd)), hn::Lt(hn::Add(size, total), hn::Set(dd, 1e38)));
     batch.slow_depth |= Bits(dd, hn::Not(known)) << lane;
-    const Double direction = hn::Set(dd, job.greater ? -1.0 : 1.0);
-    hn::Store(hn::Mul(z, direction), dd, batch.z + lane);
-    hn::Store(hn::Mul(zx, direction), dd, batch.z_x + lane);
-    hn::Store(hn::Mul(zy, direction), dd, batch.z_y + lane);
+    const Double direction = hn::Set(dd, job.greater ? -0.0 : 0.0);
+    hn::Store(hn::Xor(z, direction), dd, batch.z + lane);
+    hn::Store(hn::Xor(zx, direction), dd, batch.z_x + lane);
+    hn::Store(hn::Xor(zy, direction), dd, batch.z_y + lane);
     hn::Store(total, dd, batch.z_error + lane);
     // All W > 0 and 0 <= Z <= W at every vertex: then 0 <= z <= 1 wherever the triangle covers, and there is nothing to
     // clip or clamp.
-    auto inside = hn::Not(mixed_lanes);
+    if (draw.depth_mode == DepthMode::none) continue;
+    auto inside = front;
     for (const Corner& corner : v)
       inside = hn::And(inside, hn::And(hn::Ge(corner.z, zero), hn::Le(corner.z, corner.w)));
     batch.clip |= Bits(df, hn::Not(inside)) << lane;
   }
-  CullAndCount(job, entries, count, batch, statistics);
-  batch.small &= batch.live;
-  if (draw.depth_mode == DepthMode::none) batch.clip = 0;
+
+  if (HWY_UNLIKELY(!draw.attributes.empty())) {
+    for (std::uint32_t lane = 0; lane < count; ++lane) {
+      if (!AttributesFinite(draw, first + lane)) finite &= ~(1u << lane);
+    }
+  }
+  finite &= all;
+  reached &= job.region.empty() ? 0 : finite;
+  degenerate &= reached;
+  std::uint32_t culled = 0;
+  if (draw.cull != Cull::none) {
+    const std::uint32_t front = draw.front_face == FrontFace::clockwise ? ~negative : negative;
+    culled = (draw.cull == Cull::front ? front : ~front) & reached & ~degenerate;
+  }
+  batch.live = reached & ~degenerate & ~culled;
+  const auto ones = [](std::uint32_t lanes) { return static_cast<std::uint64_t>(__builtin_popcount(lanes)); };
+  statistics.triangles += count;
+  statistics.dropped += count - ones(finite);
+  statistics.outside += ones(finite & ~reached);
+  statistics.degenerate += ones(degenerate);
+  statistics.culled += ones(culled);
+  statistics.rasterized += ones(batch.live);
 }
 
 }  // namespace surefill::fast::HWY_NAMESPACE

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The fast path: triangles are sorted into bins of the screen, bins are drawn by vector code, in parallel.
+// The fast path: triangles are set up and drawn by vector code, chunk by chunk, in parallel.
 #ifndef SUREFILL_SRC_TILES_HPP
 #define SUREFILL_SRC_TILES_HPP
 
@@ -13,8 +13,8 @@ namespace surefill::fast {
 // Does the fast path draw frames like this one? If not, the reference path has to.
 bool supports(const Target& target, std::span<const Draw> draws);
 
-// As reference::render, on `threads` threads. Working memory: 48 MiB, 0.3 MiB a thread, and 8 bytes a sample if the
-// frame has more triangles than fit at once.
+// As reference::render, on `threads` threads. Working memory: 4 bytes a pixel for depth, 4 for visibility, 4 for counts, as
+// far as they are asked for, with the target's sides rounded up to multiples of 64; 3 MiB for the triangles at hand.
 Status render(const Target& target, std::span<const Draw> draws, int threads, Statistics& statistics) noexcept;
 
 }  // namespace surefill::fast

@@ -18,9 +18,8 @@
 //            A triangle with a NaN or an infinity is dropped and counted, and changes nothing else [B1].
 // Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
 //            only if Options asks for them, and they end with it.
-// Memory     A call allocates what it needs, a few bytes for each sample and each triangle, and frees it; when that
-// cannot
-//            be had, the status is out_of_memory.
+// Memory     A call allocates what it needs and frees it: up to 12 bytes a pixel (by what is asked for) and 3 MiB, on the
+//            reference path up to 8 bytes a sample. When that cannot be had, the status is out_of_memory.
 #ifndef SUREFILL_SUREFILL_HPP
 #define SUREFILL_SUREFILL_HPP
 
@@ -188,7 +187,8 @@ struct Target {
   AttributeLocation attribute_location = AttributeLocation::centre;
 };
 
-// What one call to render did. The first group adds up to `triangles`.
+// What one call to render did. The first group adds up to `triangles`; with several samples a pixel, the fast path's is
+// that of sample 0.
 struct Statistics {
   std::uint64_t triangles = 0;
   std::uint64_t dropped = 0;     // a NaN or an infinity [B1]
@@ -212,8 +212,7 @@ struct Statistics {
 
 // Who draws. Both paths give the same image.
 enum class Path : std::uint8_t {
-  automatic,  // the fast path where it can: one sample a pixel, no grid, not conservative, depth write on; else the
-              // reference path
+  automatic,  // the fast path where it can: no grid, not conservative; else the reference path
   reference,  // the scalar reference path, on one thread
 };
 

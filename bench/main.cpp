@@ -1,98 +1,181 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// How fast the engine draws the workloads: count, depth, visibility (depth and index) and visibility with barycentrics,
-// by the fast path on one and two threads, and by the reference path on the workloads that it can finish in a second or
-// so; and the memory limit: one linear read-compare-write of a depth buffer of the same size. Options are Google
-// Benchmark's; compare ratios within one run.
+// How fast the engine draws the workloads, beside llvmpipe, the memory limit, itself without exactness, itself on other
+// instruction sets. Options are Google Benchmark's; compare ratios within one run. `./dev bench` runs it on one thread and on two, and
+// bench/table.py makes the table.
+//
+// Names: workload/output/who, such as W1/depth/surefill. With SUREFILL_BENCH_THREADS=2 in the environment, and
+// LP_NUM_THREADS for llvmpipe, both have two threads.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
 #include <string>
 #include <vector>
 
+#include "bench/inexact.hpp"
+#include "bench/llvmpipe.hpp"
 #include "bench/workloads.hpp"
+#include "hwy/targets.h"
 #include "surefill/surefill.hpp"
 
 namespace surefill::bench {
 namespace {
 
-enum class Output { count, depth, visibility, barycentrics };
+enum class Output { count, depth, visibility, attributes };
+constexpr std::size_t kSamples = std::size_t{kWidth} * kHeight;
 
-// Made once, when first needed.
-const Workload& workload(int number, Placement placement) {
-  static std::map<std::pair<int, Placement>, Workload> made;
-  const auto [at, is_new] = made.try_emplace({number, placement});
-  if (is_new) at->second = make_workload(number, placement);
-  return at->second;
+int threads() {
+  const char* const text = std::getenv("SUREFILL_BENCH_THREADS");
+  return text != nullptr ? std::atoi(text) : 1;
 }
 
-void draw(benchmark::State& state, int number, Placement placement, Output output, Options options) {
-  const Workload& work = workload(number, placement);
-  const std::size_t samples = std::size_t{kWidth} * kHeight;
-  std::vector<std::uint32_t> count(output == Output::count ? samples : 0);
-  std::vector<std::uint32_t> index(output >= Output::visibility ? samples : 0);
-  std::vector<float> depth(output >= Output::depth ? samples : 0);
-  std::vector<float> barycentrics(output == Output::barycentrics ? 3 * samples : 0);
+// The workload that was asked for last: benchmarks of one follow each other, and memory holds one of the large ones.
+const Workload& workload(const std::string& name) {
+  static Workload held;
+  if (held.name == name) return held;
+  const std::size_t slash = name.find('/');
+  const std::string placement = slash == std::string::npos ? "" : name.substr(slash + 1);
+  if (name[0] == 'W') {
+    held = make_workload(name[1] - '0', placement == "snapped"   ? Placement::snapped
+                                        : placement == "aligned" ? Placement::aligned
+                                                                 : Placement::free);
+  } else {
+    held = make_small_triangles(std::strtoull(placement.c_str(), nullptr, 10));
+  }
+  held.name = name;
+  return held;
+}
+
+// Four floats a vertex.
+std::vector<float> values_of(const Workload& work) {
+  std::vector<float> values(4 * work.vertices.size());
+  for (std::size_t i = 0; i < values.size(); ++i) values[i] = static_cast<float>(i * 2654435761u % 1021) / 1021;
+  return values;
+}
+
+void count_triangles(benchmark::State& state, const Workload& work) {
+  state.counters["triangles"] = static_cast<double>(work.indices.size() / 3);
+}
+
+void surefill_draws(benchmark::State& state, const std::string& name, Output output, Options options) {
+  const Workload& work = workload(name);
+  std::vector<std::uint32_t> count(output == Output::count ? kSamples : 0);
+  std::vector<std::uint32_t> index(output >= Output::visibility ? kSamples : 0);
+  std::vector<float> depth(output >= Output::depth ? kSamples : 0);
+  std::vector<float> shaded(output == Output::attributes ? 4 * kSamples : 0), values;
   Target target;
   target.width = kWidth, target.height = kHeight;
-  target.count = count, target.index = index, target.depth = depth, target.barycentrics = barycentrics;
+  target.count = count, target.index = index, target.depth = depth;
   Draw triangles;
   triangles.vertices = work.vertices, triangles.indices = work.indices;
+  AttributeTarget attribute_target{shaded, 4};
+  AttributeArray attribute;
+  if (output == Output::attributes) {
+    values = values_of(work);
+    attribute.values = values, attribute.components = 4;
+    triangles.attributes = {&attribute, 1}, target.attributes = {&attribute_target, 1};
+  }
   for (auto _ : state) {
     const Status status = render(target, {&triangles, 1}, nullptr, options);
     if (status != Status::ok) return state.SkipWithError(status_text(status));
   }
-  state.counters["Mtri/s"] = benchmark::Counter(static_cast<double>(work.indices.size() / 3) * 1e-6,
-                                                benchmark::Counter::kIsIterationInvariantRate);
+  count_triangles(state, work);
+}
+
+void inexact_draws(benchmark::State& state, const std::string& name, decltype(&surefill_bench_inexact_coverage) draw) {
+  const Workload& work = workload(name);
+  std::vector<float> depth(kSamples);
+  for (auto _ : state) {
+    if (!draw(kWidth, kHeight, &work.vertices[0].x, work.vertices.size(), work.indices.data(), work.indices.size(),
+              depth.data())) {
+      return state.SkipWithError("it could not draw");
+    }
+  }
+  count_triangles(state, work);
+}
+
+void llvmpipe_draws(benchmark::State& state, const std::string& name, bool color) {
+  static std::string why;
+  static const std::unique_ptr<Llvmpipe> rival = Llvmpipe::open(&why);
+  if (rival == nullptr) return state.SkipWithError(why.c_str());
+  const Workload& work = workload(name);
+  rival->load(work, color ? values_of(work) : std::vector<float>());
+  rival->draw(color);  // shaders are compiled at the first draw
+  for (auto _ : state) rival->draw(color);
+  state.SetLabel(rival->name());
+  count_triangles(state, work);
+}
+
+// The same on one of Highway's targets.
+void target_draws(benchmark::State& state, const std::string& name, std::int64_t target) {
+  if ((hwy::SupportedTargets() & target) == 0) return state.SkipWithError("this machine has it not");
+  hwy::SetSupportedTargetsForTest(target);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  surefill_draws(state, name, Output::depth, {});
+  hwy::SetSupportedTargetsForTest(0);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
 
 // The least that any z-buffer has to do for one full-screen layer.
 void memory_limit(benchmark::State& state) {
-  const std::size_t samples = std::size_t{kWidth} * kHeight;
-  std::vector<float> depth(samples, 1.0f), layer(samples, 0.5f);
+  std::vector<float> depth(kSamples, 1.0f), layer(kSamples, 0.5f);
   for (auto _ : state) {
-    for (std::size_t i = 0; i < samples; ++i) depth[i] = std::min(depth[i], layer[i]);
+    for (std::size_t i = 0; i < kSamples; ++i) depth[i] = std::min(depth[i], layer[i]);
     benchmark::DoNotOptimize(depth.data());
     benchmark::ClobberMemory();
   }
-  state.SetBytesProcessed(state.iterations() * static_cast<std::int64_t>(3 * samples * sizeof(float)));
 }
 
-void add(const std::string& name, int number, Placement placement, Output output, Options options) {
-  benchmark::RegisterBenchmark(name.c_str(),
-                               [=](benchmark::State& state) { draw(state, number, placement, output, options); })
-      ->Unit(benchmark::kMillisecond)
-      ->UseRealTime();
+template <typename Run>
+void add(const std::string& name, const Run& run) {
+  benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+void add_all() {
+  using State = benchmark::State;
+  const Options options{.threads = threads()};
+  const bool one = options.threads == 1;
+  for (int number = 1; number <= kWorkloads; ++number) {
+    const std::string free = "W" + std::to_string(number);
+    for (const std::string& name : {free, free + "/snapped", free + "/aligned"}) {
+      const bool plain = name == free;
+      const auto with = [&](Output output) {
+        return [=](State& state) { surefill_draws(state, name, output, options); };
+      };
+      add(name + "/count/surefill", with(Output::count));
+      add(name + "/depth/surefill", with(Output::depth));
+      if (one) {
+        add(name + "/depth/inexact-coverage",
+            [=](State& state) { inexact_draws(state, name, surefill_bench_inexact_coverage); });
+      }
+      if (!plain) continue;
+      add(name + "/visibility/surefill", with(Output::visibility));
+      add(name + "/attributes/surefill", with(Output::attributes));
+      add(name + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
+      add(name + "/attributes/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, true); });
+      if (!one) continue;
+      add(name + "/depth/inexact-depth", [=](State& state) { inexact_draws(state, name, surefill_bench_inexact_depth); });
+      add(name + "/depth/AVX2", [=](State& state) { target_draws(state, name, HWY_AVX2); });
+    }
+  }
+  if (!one) return;
+  for (const char* const size : {"10000", "100000", "1000000", "10000000"}) {
+    const std::string name = std::string("small/") + size;
+    add(name + "/depth/surefill", [=](State& state) { surefill_draws(state, name, Output::depth, options); });
+  }
+  add("memory/depth/limit", memory_limit);
 }
 
 }  // namespace
 }  // namespace surefill::bench
 
 int main(int argc, char** argv) {
-  using namespace surefill;
-  using namespace surefill::bench;
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
-  const char* const placements[] = {"", "/snapped", "/aligned"};
-  const char* const outputs[] = {"count", "depth", "visibility", "barycentrics"};
-  for (int placement = 0; placement < 3; ++placement) {
-    for (int number = 1; number <= kWorkloads; ++number) {
-      const std::string name = "W" + std::to_string(number) + placements[placement] + "/";
-      for (int output = 0; output < (placement == 0 ? 4 : 2); ++output) {
-        for (const int threads : {1, 2}) {
-          add(name + outputs[output] + "/threads:" + std::to_string(threads), number, static_cast<Placement>(placement),
-              static_cast<Output>(output), {.threads = threads});
-        }
-      }
-    }
-  }
-  for (const int number : {1, 2, 4}) {
-    add("W" + std::to_string(number) + "/visibility/reference", number, Placement::free, Output::visibility,
-        {.path = Path::reference});
-  }
-  benchmark::RegisterBenchmark("memory limit/depth layer", memory_limit)->Unit(benchmark::kMillisecond);
+  surefill::bench::add_all();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // How fast the engine draws the workloads, beside llvmpipe, the memory limit, itself without exactness, itself on other
-// instruction sets. Options are Google Benchmark's; compare ratios within one run. `./dev bench` runs it on one thread and on two, and
-// bench/table.py makes the table.
+// instruction sets. Options are Google Benchmark's; compare ratios within one run. `./dev bench` runs it on one thread
+// and on two, and bench/table.py makes the table.
 //
 // Names: workload/output/who, such as W1/depth/surefill. With SUREFILL_BENCH_THREADS=2 in the environment, and
 // LP_NUM_THREADS for llvmpipe, both have two threads.
@@ -157,7 +157,8 @@ void add_all() {
       add(name + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
       add(name + "/attributes/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, true); });
       if (!one) continue;
-      add(name + "/depth/inexact-depth", [=](State& state) { inexact_draws(state, name, surefill_bench_inexact_depth); });
+      add(name + "/depth/inexact-depth",
+          [=](State& state) { inexact_draws(state, name, surefill_bench_inexact_depth); });
       add(name + "/depth/AVX2", [=](State& state) { target_draws(state, name, HWY_AVX2); });
     }
   }

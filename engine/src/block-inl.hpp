@@ -98,12 +98,7 @@ template <bool kDepth, bool kWinner, bool kCount>
 class Rasterizer {
  public:
   Rasterizer(const DrawJob& job, const Canvas& canvas, BandSet bands, Statistics& statistics)
-      : job_(job),
-        draw_(*job.draw),
-        canvas_(canvas),
-        bands_(bands),
-        statistics_(statistics),
-        shift_(job.shift) {
+      : job_(job), draw_(*job.draw), canvas_(canvas), bands_(bands), statistics_(statistics), shift_(job.shift) {
     if (draw_.scissor) {  // else what lies beyond the target is drawn where nobody looks
       const PixelBox& r = job.region;
       partial_ = ((r.x0 | r.y0) & 3) != 0 || (r.x1 & 3) != 0 || (r.y1 & 3) != 0;
@@ -178,7 +173,7 @@ class Rasterizer {
     std::int32_t a[3], b[3];
     std::int32_t most[3], least[3];  // largest and smallest change of an edge function within a cell; most: and `doubt`
     std::int32_t doubt;              // twice the bound of the integers
-    std::uint32_t position;  // in the draw
+    std::uint32_t position;          // in the draw
     bool slow_depth, clip;
     bool special;  // not drawn as most are
 
@@ -253,8 +248,7 @@ class Rasterizer {
       for (std::size_t k = 0; k < 3; ++k) {
         const auto value = hn::Add(hn::Set(d, e[k]), hn::ShiftLeft<2>(hn::Load(d, slot.step[k] + i)));
         hn::Store(value, d, area.edge[k] + i);
-        outside_lanes =
-            hn::Or(outside_lanes, hn::Add(value, hn::Set(d, slot.most[k])));  // negative if one is
+        outside_lanes = hn::Or(outside_lanes, hn::Add(value, hn::Set(d, slot.most[k])));  // negative if one is
         cut_lanes = hn::Or(cut_lanes, hn::Add(value, hn::Set(d, slot.least[k])));
       }
       outside |= Bits(d, hn::Lt(outside_lanes, hn::Zero(d))) << i;
@@ -283,7 +277,8 @@ class Rasterizer {
       const auto column = hn::Load(d, kColumn + i), row = hn::Load(d, kRow + i);
       auto lanes = hn::Zero(d);
       for (std::size_t k = 0; k < 3; ++k) {
-        const auto step = hn::Add(hn::Mul(hn::Set(d, batch.a[k][lane]), column), hn::Mul(hn::Set(d, batch.b[k][lane]), row));
+        const auto step =
+            hn::Add(hn::Mul(hn::Set(d, batch.a[k][lane]), column), hn::Mul(hn::Set(d, batch.b[k][lane]), row));
         const auto value = hn::Add(hn::Set(d, batch.e[k][lane]), hn::ShiftLeft<2>(step));
         hn::Store(step, d, slot.step[k] + i);
         hn::Store(value, d, area.edge[k] + i);
@@ -351,7 +346,8 @@ class Rasterizer {
       most[i] = (kTileSize - 1) * (std::max(a[i], 0.0) + std::max(b[i], 0.0)) + 1;  // 1: far more than E's error here
     }
     slot.doubt = 2 * (kExactCoverage ? kTileBound : 0);
-    for (std::size_t k = 0; k < 3; ++k) slot.most[k] = 3 * (std::max(slot.a[k], 0) + std::max(slot.b[k], 0)) + slot.doubt;
+    for (std::size_t k = 0; k < 3; ++k)
+      slot.most[k] = 3 * (std::max(slot.a[k], 0) + std::max(slot.b[k], 0)) + slot.doubt;
     LoadSteps(slot);
     LoadPlane(slot, lane);
     LoadAreaSteps(slot);
@@ -388,8 +384,8 @@ class Rasterizer {
           const auto n = static_cast<std::size_t>(__builtin_ctz(tiles));
           std::int32_t at[3];
           for (std::size_t i = 0; i < 3; ++i) {
-            at[i] =
-                static_cast<std::int32_t>(std::nearbyint(std::clamp(e[i][n], -kEdgeLimit, kEdgeLimit))) - slot.doubt / 2;
+            at[i] = static_cast<std::int32_t>(std::nearbyint(std::clamp(e[i][n], -kEdgeLimit, kEdgeLimit))) -
+                    slot.doubt / 2;
           }
           const int x0 = tx + static_cast<int>(n) * kTileSize;
           if (Tile(slot, lane, at, x0, ty)) UpdateTileFar(x0, ty);
@@ -441,8 +437,8 @@ class Rasterizer {
       std::uint32_t cells = SetUpArea(slot, start, kDepth ? slot.DepthAt(x + area_x, y + area_y) : 0, x + area_x,
                                       y + area_y, area, &full);
       if (first_x >= area_x + 4 || last_x < area_x + 12 || first_y >= area_y + 4 || last_y < area_y + 12) {
-        cells &= Mask4x4((first_x - area_x) >> 2, (last_x - area_x) >> 2, (first_y - area_y) >> 2,
-                         (last_y - area_y) >> 2);
+        cells &=
+            Mask4x4((first_x - area_x) >> 2, (last_x - area_x) >> 2, (first_y - area_y) >> 2, (last_y - area_y) >> 2);
       }
       if (bands_.sets > 1) cells &= OwnedCells(y + area_y);
       if (hides) {
@@ -568,7 +564,9 @@ class Rasterizer {
   bool InRegion(int x, int y) const {
     return x >= job_.region.x0 && x < job_.region.x1 && y >= job_.region.y0 && y < job_.region.y1;
   }
-  SamplePosition Position(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
+  SamplePosition Position(int x, int y) const {
+    return {x + job_.sample.x, y + job_.sample.y};
+  }
 
   // The triangle of the slot for exact arithmetic.
   Triangle& Exact(const Slot& slot) {
@@ -597,8 +595,8 @@ class Rasterizer {
     if (draw_.depth_write) canvas_.depth[offset] = z;
   }
 
-  // V1, V3 and M5: nearer, or as near as a triangle of this draw with a larger identifier; with depth write off, nearer,
-  // and among the triangles of this draw the largest identifier. Uncertain samples come late: order is no help.
+  // V1, V3 and M5: nearer, or as near as a triangle of this draw with a larger identifier; with depth write off,
+  // nearer, and among the triangles of this draw the largest identifier. Uncertain samples come late: order is no help.
   bool Passes(std::uint32_t position, float z, std::size_t offset) const {
     const float stored = canvas_.depth[offset];
     if (!kWinner) return z < stored;
@@ -646,10 +644,12 @@ class Rasterizer {
                        canvas_.winner + offset + i);
     }
     const auto unknown = hn::AndNot(known, lanes);
-    if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) SlowLanes(slot, Bits(df, unknown) << i, area.CellX(cell), area.CellY(cell));
+    if (HWY_UNLIKELY(!hn::AllFalse(df, unknown)))
+      SlowLanes(slot, Bits(df, unknown) << i, area.CellX(cell), area.CellY(cell));
   }
 
-  // The same where fragments count, may be clipped or clamped, have no known bound, or more than depth says who is seen.
+  // The same where fragments count, may be clipped or clamped, have no known bound, or more than depth says who is
+  // seen.
   HWY_NOINLINE void SpecialFragments(const Slot& slot, hn::Mask<CellInt> covered, hn::Vec<CellFloat> low, int cell_x,
                                      int cell_y, std::size_t offset, std::size_t i, double z) {
     [[maybe_unused]] const CellInt d;
@@ -720,7 +720,9 @@ class Rasterizer {
 
   // ---- hierarchical z
   // Can a block or tile be skipped because all it holds is nearer? Not where fragments count, or move.
-  bool Hides(const Slot& slot) const { return kDepth && !kCount && !slot.slow_depth && !(slot.clip && clamps_); }
+  bool Hides(const Slot& slot) const {
+    return kDepth && !kCount && !slot.slow_depth && !(slot.clip && clamps_);
+  }
   // From the depth at a first sample to less than any within `reach` steps each way, errors included; the last term is
   // for a first sample outside the triangle's box.
   double Dip(const Slot& slot, double reach) const {

@@ -82,8 +82,8 @@ struct alignas(64) Batch {
   std::int32_t most[3][kBatch];  // the largest change of an edge function within a cell, and twice the bound
   // Samples that the triangle can cover, both ends included.
   std::int32_t first_x[kBatch], last_x[kBatch], first_y[kBatch], last_y[kBatch];
-  // Depth at the origin's first sample, its steps, and a bound of the error at any sample of the box. Smaller is nearer:
-  // negated for DepthTest::greater.
+  // Depth at the origin's first sample, its steps, and a bound of the error at any sample of the box. Smaller is
+  // nearer: negated for DepthTest::greater.
   alignas(64) double z[kBatch], z_x[kBatch], z_y[kBatch], z_error[kBatch];
   alignas(64) double edge_a[3][kBatch], edge_b[3][kBatch], edge_c[3][kBatch];  // unscaled; of lanes that are not small
 
@@ -106,7 +106,7 @@ struct DrawJob {
   PixelBox region;              // target and scissor
   SamplePosition sample;        // within a pixel
   TieShift shift;
-  bool depth;                   // is depth needed?
+  bool depth;  // is depth needed?
   bool greater;
 };
 

@@ -83,8 +83,8 @@ HWY_INLINE Corner LoadCorner(D d, const Vertex* const* vertices) {
 }
 
 // What a triangle of which all W > 0 reaches along one axis, as in reach() but in float32: division and subtraction are
-// monotonic and the sample coordinates i + offset are float32 values, so again no margin is needed. first, last: pixels,
-// clamped to [begin, end); the box is empty if last < first.
+// monotonic and the sample coordinates i + offset are float32 values, so again no margin is needed. first, last:
+// pixels, clamped to [begin, end); the box is empty if last < first.
 HWY_INLINE void PixelRange(Float c0, Float c1, Float c2, Float w0, Float w1, Float w2, double offset, int begin,
                            int end, std::int32_t* first, std::int32_t* last) {
   const FloatTag d;
@@ -255,7 +255,8 @@ void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& 
 
     // Classes, and where each lane's origin is.
     const auto three = hn::Set(di, 3), seven = hn::Set(di, 7);
-    const auto cell_span = hn::Max(hn::Sub(last_x, hn::AndNot(three, first_x)), hn::Sub(last_y, hn::AndNot(three, first_y)));
+    const auto cell_span =
+        hn::Max(hn::Sub(last_x, hn::AndNot(three, first_x)), hn::Sub(last_y, hn::AndNot(three, first_y)));
     const auto block_span =
         hn::Max(hn::Sub(last_x, hn::AndNot(seven, first_x)), hn::Sub(last_y, hn::AndNot(seven, first_y)));
     const auto is_small = hn::Lt(cell_span, hn::Set(di, 16));
@@ -307,9 +308,10 @@ void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& 
     const Double d_sign = hn::IfThenElse(is_negative, hn::Set(dd, -0.0), hn::Zero(dd));
     det = hn::Xor(det, d_sign);
     Double scale[3];
-    const auto exponent = hn::Add(hn::Set(du, static_cast<std::uint64_t>(2046 + kTileExponent) << 52),
-                                  hn::IfThenElseZero(hn::RebindMask(du, hn::Lt(hn::PromoteTo(dd, cell_span), hn::Set(dd, 16.0))),
-                                                     hn::Set(du, static_cast<std::uint64_t>(kSmallExponent - kTileExponent) << 52)));
+    const auto exponent =
+        hn::Add(hn::Set(du, static_cast<std::uint64_t>(2046 + kTileExponent) << 52),
+                hn::IfThenElseZero(hn::RebindMask(du, hn::Lt(hn::PromoteTo(dd, cell_span), hn::Set(dd, 16.0))),
+                                   hn::Set(du, static_cast<std::uint64_t>(kSmallExponent - kTileExponent) << 52)));
     for (std::size_t i = 0; i < 3; ++i) scale[i] = Scale(a[i], b[i], exponent);
     hn::Mask<DoubleTag> integer = hn::Lt(det, det);
     if (kExactCoverage) {
@@ -321,10 +323,9 @@ void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& 
     const auto rounded_bound =
         kExactCoverage ? hn::IfThenElse(is_small, small_bound, hn::Set(di, kTileBound)) : hn::Zero(di);
     const bool any_integer = !hn::AllFalse(dd, integer);
-    const auto edge_bound =
-        HWY_UNLIKELY(any_integer)
-            ? hn::DemoteTo(di, hn::IfThenZeroElse(integer, hn::PromoteTo(dd, rounded_bound)))
-            : rounded_bound;
+    const auto edge_bound = HWY_UNLIKELY(any_integer)
+                                ? hn::DemoteTo(di, hn::IfThenZeroElse(integer, hn::PromoteTo(dd, rounded_bound)))
+                                : rounded_bound;
     hn::Store(edge_bound, di, batch.bound + lane);
     const Double limit = hn::Set(dd, kEdgeLimit);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -343,7 +344,8 @@ void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& 
         // Inside if E > 0, or E = 0 and the tie goes to this triangle: floor(E) >= 0, with a little taken off if it
         // does not.
         const Double along_x = hn::Mul(a[i], hn::Set(dd, shift.x)), along_y = hn::Mul(b[i], hn::Set(dd, shift.y));
-        const Double decides = shift.y_dominates ? along_y : along_x, else_decides = shift.y_dominates ? along_x : along_y;
+        const Double decides = shift.y_dominates ? along_y : along_x,
+                     else_decides = shift.y_dominates ? along_x : along_y;
         const auto inside = hn::Or(hn::Gt(decides, hn::Zero(dd)),
                                    hn::And(hn::Eq(decides, hn::Zero(dd)), hn::Gt(else_decides, hn::Zero(dd))));
         const Double floor = hn::Floor(hn::Add(start, hn::IfThenZeroElse(inside, hn::Set(dd, -0x1p-12))));
@@ -381,8 +383,8 @@ void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& 
     // edge's error is at least `bound` times its value: twice that error bounds a product with it.
     const Double size = hn::Add(hn::Abs(z), hn::Add(hn::Mul(hn::Abs(zx), rx), hn::Mul(hn::Abs(zy), ry)));
     const Double steps = hn::Mul(bound, hn::Add(hn::Mul(x_size, rx), hn::Mul(y_size, ry)));
-    const Double numerators = hn::Add(hn::Mul(z_magnitude, hn::Add(hn::Add(edge_error, edge_error), steps)),
-                                      hn::Mul(size, det_error));
+    const Double numerators =
+        hn::Add(hn::Mul(z_magnitude, hn::Add(hn::Add(edge_error, edge_error), steps)), hn::Mul(size, det_error));
     // The first sample of an area may lie 63 samples before the origin, on the way to which sums can be larger.
     const Double way = hn::Mul(hn::Set(dd, 63.0), hn::Add(hn::Abs(zx), hn::Abs(zy)));
     const Double evaluation = hn::Mul(hn::Set(dd, 2 * kEdgeErrorBound), hn::Add(size, way));

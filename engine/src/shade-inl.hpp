@@ -70,8 +70,8 @@ class Shader {
     double a, b, c, error;
   };
 
-  // The triangles of a block lie anywhere in memory: their indices are asked for two blocks ahead, their vertices one. (Inlined:
-  // g++ drops calls of functions that only prefetch.)
+  // The triangles of a block lie anywhere in memory: their indices are asked for two blocks ahead, their vertices one.
+  // (Inlined: g++ drops calls of functions that only prefetch.)
   HWY_INLINE void Prefetch(int x0, int y0, int rows, bool indices) {
     std::uint32_t last = kNoTriangle;
     std::size_t draw = draw_;
@@ -95,10 +95,10 @@ class Shader {
   void Block(int x0, int y0, int rows) {
     for (int y = y0; y < y0 + rows; ++y) {
       for (int x = x0; x < std::min(x0 + 8, target_.width); ++x) {
-        const std::size_t s = (static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) +
-                               static_cast<std::size_t>(x)) *
-                                  static_cast<std::size_t>(target_.samples) +
-                              job_.sample_number;
+        const std::size_t s =
+            (static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) + static_cast<std::size_t>(x)) *
+                static_cast<std::size_t>(target_.samples) +
+            job_.sample_number;
         const std::uint32_t winner = canvas_.winner[canvas_.offset_of(x, y)];
         if (winner == kNoTriangle) {
           Clear(s);
@@ -153,14 +153,14 @@ class Shader {
       size[i] = (std::fabs(a[i]) * target_.width + std::fabs(b[i]) * target_.height) + std::fabs(c[i]);
     }
     seen_->perspective = {(a[0] + a[1]) + a[2], (b[0] + b[1]) + b[2], (c[0] + c[1]) + c[2],
-                    kUnit * ((size[0] + size[1]) + size[2])};
+                          kUnit * ((size[0] + size[1]) + size[2])};
     const double ax = a[0] * v[0]->x, by = b[0] * v[0]->y, cw = c[0] * v[0]->w;
     seen_->affine = {0, 0, (ax + by) + cw, kUnit * ((std::fabs(ax) + std::fabs(by)) + std::fabs(cw))};
     for (std::size_t n = 0; n < count_; ++n) {
       const Output& out = outputs_[n];
       Planes& planes = seen_->planes[n];
-      planes.interpolation = out.attribute == kBarycentrics ? Interpolation::perspective
-                                                            : draw().attributes[out.attribute].interpolation;
+      planes.interpolation =
+          out.attribute == kBarycentrics ? Interpolation::perspective : draw().attributes[out.attribute].interpolation;
       alignas(32) double u[3][4] = {};
       for (std::size_t i = 0; i < 3; ++i) {
         for (std::uint32_t k = 0; k < out.components; ++k) u[i][k] = ValueOf(out, i, k);
@@ -220,8 +220,8 @@ class Shader {
       const double below = (m.a * p.x + m.b * p.y) + m.c, inverse = 1 / below;
       // Where the denominator is known to 10 bits, 1.002 / |below| is more than the inverse of the real one. Else no
       // number is known: the comparison below fails for NaN.
-      const double known = std::fabs(below) * 0x1p-10 > m.error ? std::fabs(inverse) * 1.002
-                                                               : std::numeric_limits<double>::quiet_NaN();
+      const double known =
+          std::fabs(below) * 0x1p-10 > m.error ? std::fabs(inverse) * 1.002 : std::numeric_limits<double>::quiet_NaN();
       alignas(16) float nearest[4];
       std::uint32_t unknown = 0;
       for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {

@@ -25,8 +25,8 @@ constexpr std::size_t kChunkBatches = 16, kSharedChunkBatches = 2048;
 // Pieces of a chunk that threads take one at a time: when one is slow, the others have something left to do.
 constexpr int kPiecesPerThread = 4;
 
-// Memory without exceptions, on cache lines; large pieces on large pages, where the system has them: triangles are drawn
-// all over the image.
+// Memory without exceptions, on cache lines; large pieces on large pages, where the system has them: triangles are
+// drawn all over the image.
 template <typename T>
 class Buffer {
  public:
@@ -41,8 +41,12 @@ class Buffer {
 #endif
     return data_ != nullptr;
   }
-  T* data() { return data_.get(); }
-  T& operator[](std::size_t i) { return data_[i]; }
+  T* data() {
+    return data_.get();
+  }
+  T& operator[](std::size_t i) {
+    return data_[i];
+  }
 
  private:
   struct Free {
@@ -123,7 +127,8 @@ class Renderer {
     if (!ok) return false;
     canvas_.depth = depth_buffer_.data(), canvas_.block_far = block_far_.data(), canvas_.tile_far = tile_far_.data();
     canvas_.winner = winner_.data(), canvas_.count = count_.data();
-    for (int c = 0; c < 2 * canvas_.blocks_x(); ++c) column_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>((c >> 1) * 64 + (c & 1) * 16);
+    for (int c = 0; c < 2 * canvas_.blocks_x(); ++c)
+      column_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>((c >> 1) * 64 + (c & 1) * 16);
     for (int r = 0; r < 16 * canvas_.tiles_y; ++r)
       row_[static_cast<std::size_t>(r)] = static_cast<std::uint32_t>((r >> 1) * canvas_.blocks_x() * 64 + (r & 1) * 32);
     canvas_.column = column_.data(), canvas_.row = row_.data();
@@ -132,9 +137,7 @@ class Renderer {
     return true;
   }
 
-  std::size_t slots() const {
-    return static_cast<std::size_t>(std::max(pieces_, canvas_.tiles_y));
-  }
+  std::size_t slots() const { return static_cast<std::size_t>(std::max(pieces_, canvas_.tiles_y)); }
 
   static void add_triangles(Statistics& sum, const Statistics& part) {
     sum.triangles += part.triangles;
@@ -171,7 +174,8 @@ class Renderer {
       const auto triangles = static_cast<std::uint32_t>(draws_[draw].indices.size() / 3);
       if (triangle == 0) {
         const std::uint32_t ordinal =
-            draw == 0 ? 0 : jobs_[draw - 1].first_ordinal + static_cast<std::uint32_t>(draws_[draw - 1].indices.size() / 3);
+            draw == 0 ? 0
+                      : jobs_[draw - 1].first_ordinal + static_cast<std::uint32_t>(draws_[draw - 1].indices.size() / 3);
         jobs_[draw] = job_of(draw, ordinal);
       }
       const std::size_t wanted = (triangles - triangle + kBatch - 1) / kBatch;
@@ -239,7 +243,8 @@ class Renderer {
     std::fill(canvas_.depth + begin, canvas_.depth + end, kInfinity);
     const int y1 = (band + 1) * kTileSize, x1 = canvas_.tiles_x * kTileSize;
     for (int y = band * kTileSize; y < y1; ++y) {
-      for (int x = y < target_.height ? target_.width : 0; x < x1; ++x) canvas_.depth[canvas_.offset_of(x, y)] = -kInfinity;
+      for (int x = y < target_.height ? target_.width : 0; x < x1; ++x)
+        canvas_.depth[canvas_.offset_of(x, y)] = -kInfinity;
       if (target_.initial_depth.empty() || y >= target_.height) continue;
       for (int x = 0; x < target_.width; ++x) {
         canvas_.depth[canvas_.offset_of(x, y)] = kept_depth(target_.initial_depth[sample_index(x, y)]);

@@ -270,6 +270,11 @@ constexpr Fault kAccepted[] = {
        c.draw().identifiers = {};
        c.attribute_arrays[0].values = {};
      }},
+    {"one vertex for all three corners", Status::ok,
+     [](Call& c) {
+       c.draw().vertices = std::span(c.vertices).first(1);
+       std::fill(c.indices.begin(), c.indices.end(), 0u);
+     }},
     {"no identifiers, the largest first index", Status::ok,
      [](Call& c) {
        c.draw().identifiers = {};

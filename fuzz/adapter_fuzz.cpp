@@ -39,6 +39,12 @@ void check(const Words& words) {
   if (scene.initial_depth != nullptr && Wide{scene.width} * scene.height * scene.samples > words.size()) {
     report_finding("adapter", "a scene with more initial depths than the message has words");
   }
+  // What a host makes buffers of: sizes of S5 and up to four components, whose products fit in 64 bits.
+  const Wide samples = Wide{scene.width} * scene.height * scene.samples;
+  if (samples == 0 || samples > Wide{16384} * 16384 * 16) report_finding("adapter", "a size outside S5");
+  for (const std::uint32_t components : decoded.components) {
+    if (components > 4) report_finding("adapter", "an attribute of more than four components");
+  }
   if (scene.draw_count == 0) return;  // attributes without draws are not told apart
   std::vector<float*> attributes;
   Words again = adapters::scene_words(scene, image_of(decoded.outputs, attributes));

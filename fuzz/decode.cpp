@@ -417,17 +417,16 @@ constexpr int kLargeSide = 32;
 Scene decode_paths(std::span<const std::uint8_t> bytes) {
   const std::uint32_t sides = bytes.empty() ? 0u : bytes[0];
   Bytes rest(bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kPathPrefix)), bytes.end());
-  if (rest.size() > 1) rest[1] = static_cast<std::uint8_t>(rest[1] & ~7u);
   Scene scene = decode_scene(rest);
   scene.width = kPathSides[sides & 7u];
   scene.height = kPathSides[sides >> 3 & 7u];
   if (scene.width > kLargeSide && scene.height > kLargeSide) scene.height = kPathSides[0];
+  while (scene.width * scene.height * scene.samples > kMostPathSamples) scene.samples /= 2;
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
   for (SceneDraw& draw : scene.draws) {
     draw.grid.reset();
     draw.conservative = Conservative::none;
-    draw.depth_write = true;
   }
   return scene;
 }
@@ -438,9 +437,10 @@ std::optional<Bytes> encode_paths(const Scene& scene) {
   };
   const std::uint32_t width = side_number(scene.width), height = side_number(scene.height);
   if (scene.width > kLargeSide && scene.height > kLargeSide) return std::nullopt;
-  if (width > 7 || height > 7 || scene.samples != 1 || scene.initial_depth.size() > 1) return std::nullopt;
+  if (width > 7 || height > 7 || scene.initial_depth.size() > 1) return std::nullopt;
+  if (scene.samples > 16 || scene.width * scene.height * scene.samples > kMostPathSamples) return std::nullopt;
   for (const SceneDraw& draw : scene.draws) {
-    if (draw.grid || draw.conservative != Conservative::none || !draw.depth_write) return std::nullopt;
+    if (draw.grid || draw.conservative != Conservative::none) return std::nullopt;
   }
   Scene inner = scene;
   inner.width = inner.height = 1;

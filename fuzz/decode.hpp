@@ -86,14 +86,15 @@ std::optional<Bytes> encode_scene(const corpus::Scene& scene);
 corpus::Scene decode_samples(std::span<const std::uint8_t> bytes);
 std::optional<Bytes> encode_samples(const corpus::Scene& scene);
 
-// Frames that the fast path draws, on targets of several tiles and bins, and how it draws them:
+// Frames that the fast path draws, on targets of several tiles and bands, and how it draws them:
 //   0  bits 0-2 width, 3-5 height: kPathSides of them; if both are over 32, the height is 16, for speed
 //   1  bits 0-3 the instruction set, by its number among those of this machine, 4-7 threads: 13, 14, 15 mean 2, 3, 8,
 //      the others one
 //   2  bits 0-2: no count, index, depth; all of bits 3-4 set: barycentrics and attributes, too
-//   3  a scene; its size, samples, grid, conservative mode, depth write and all of its initial depths but one are
-//   ignored
+//   3  a scene; its size, grid, conservative mode and all of its initial depths but one are ignored, and its samples
+//      are halved until at most kMostPathSamples are drawn, but not below two
 inline constexpr int kPathSides[8] = {16, 8, 20, 32, 65, 72, 129, 136};
+inline constexpr int kMostPathSamples = 136 * 32 * 2;
 inline constexpr std::size_t kPathPrefix = 3;
 corpus::Scene decode_paths(std::span<const std::uint8_t> bytes);
 std::optional<Bytes> encode_paths(const corpus::Scene& scene);  // bytes 1 and 2 are 0

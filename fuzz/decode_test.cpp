@@ -9,6 +9,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <ostream>
 
 #include "fuzz/mutate.hpp"
@@ -41,7 +42,10 @@ struct Form {
 class Decode : public testing::TestWithParam<Form> {};
 INSTANTIATE_TEST_SUITE_P(Forms, Decode,
                          testing::Values(Form{"triangle", decode_triangle, encode_triangle},
-                                         Form{"scene", decode_scene, encode_scene}),
+                                         Form{"grid", decode_grid_triangle, encode_grid_triangle},
+                                         Form{"scene", decode_scene, encode_scene},
+                                         Form{"samples", decode_samples, encode_samples},
+                                         Form{"paths", decode_paths, encode_paths}),
                          [](const auto& form) { return std::string(form.param.name); });
 
 Bytes random_bytes(Random& random) {
@@ -57,7 +61,7 @@ Bytes random_bytes(Random& random) {
 
 TEST_P(Decode, EveryInputMeansAValidSceneThatItsFormEncodes) {
   Random random(1);
-  for (int n = 0; n < 20000; ++n) {
+  for (int n = 0; n < 5000; ++n) {
     const Bytes bytes = random_bytes(random);
     const Scene scene = GetParam().decode(bytes);
     const corpus::Frame frame(scene);
@@ -87,7 +91,23 @@ TEST_P(Decode, MissingBytesAreZero) {
     bytes.resize(bytes.size() + 4096);
     EXPECT_TRUE(corpus::equal(GetParam().decode(bytes), scene));
   }
-  EXPECT_EQ(GetParam().decode({}).width, 1);
+}
+
+// What the fast path draws: all samples a pixel, on large targets as far as they stay quick, and depth write off.
+TEST(DecodePaths, DrawsEveryNumberOfSamplesAndDepthWriteOff) {
+  Random random(7);
+  int several_on_a_large_side = 0, without_write = 0;
+  std::map<int, int> of_samples;
+  for (int n = 0; n < 2000; ++n) {
+    const Scene scene = decode_paths(random_bytes(random));
+    ++of_samples[scene.samples];
+    several_on_a_large_side += scene.samples > 1 && std::max(scene.width, scene.height) > 64;
+    for (const corpus::SceneDraw& draw : scene.draws) without_write += !draw.depth_write;
+    ASSERT_LE(scene.width * scene.height * scene.samples, kMostPathSamples);
+  }
+  for (const int samples : {1, 2, 4, 8, 16}) EXPECT_GT(of_samples[samples], 40) << samples;
+  EXPECT_GT(several_on_a_large_side, 40);
+  EXPECT_GT(without_write, 40);
 }
 
 // The meaning of stored inputs: whoever changes it loses every corpus, and changes this test.

@@ -57,11 +57,10 @@ constexpr std::size_t kMeshVertices = 5;
 // The scene as the fast path can have it: without the state that it leaves to the reference path, on the next larger
 // target of the form.
 void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) {
-  if (scene.samples != 1 || scene.draws.empty()) return;
+  if (scene.draws.empty()) return;
   for (corpus::SceneDraw& draw : scene.draws) {
     draw.grid.reset();
     draw.conservative = Conservative::none;
-    draw.depth_write = true;
   }
   const auto next_larger = [](int side) {
     int best = 0;
@@ -72,6 +71,7 @@ void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) 
   };
   scene.width = next_larger(scene.width);
   scene.height = scene.width > kPathSides[3] ? kPathSides[0] : next_larger(scene.height);
+  while (scene.samples > 1 && scene.width * scene.height * scene.samples > kMostPathSamples) scene.samples /= 2;
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
   if (const std::optional<Bytes> bytes = encode_paths(scene)) seeds.add("paths", name, *bytes);
@@ -124,6 +124,8 @@ void add_generated(SeedWriter& seeds) {
     large.max_size = kPathSides[7];
     large.max_triangles = kMaxTriangles;
     add_paths(seeds, properties::random_scene(category, 2, large), name + "-large");
+    large.samples = true;
+    add_paths(seeds, properties::random_scene(category, 2, large), name + "-large-samples");
   }
 }
 
@@ -135,6 +137,7 @@ void add_arguments(SeedWriter& seeds) {
     for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.bits());
     bytes[0] = static_cast<std::uint8_t>(n);
     seeds.add("arguments", "call-" + std::to_string(n), bytes);
+    seeds.add("c_api", "call-" + std::to_string(n), bytes);
   }
 }
 
@@ -146,6 +149,13 @@ void add_texts(SeedWriter& seeds) {
   Bytes bytes((std::size(kWords) + kStateOfDraw + kNumbersOfVertices + kIndicesAndIdentifier) * 4);
   for (std::size_t i = 0; i < std::size(kWords); ++i) bytes[4 * i] = kWords[i];
   seeds.add("adapter", "triangle", bytes);
+  // Its samples are 2^31 * 2^31 * 4, which is 0 in 64 bits: as many initial depths as the message has words left.
+  constexpr std::uint32_t kOverflow[] = {4, 1u << 31, 1u << 31, 4, 0, 0, 0, 0, 1};
+  Bytes overflow;
+  for (const std::uint32_t word : kOverflow) {
+    for (int shift = 0; shift < 32; shift += 8) overflow.push_back(static_cast<std::uint8_t>(word >> shift));
+  }
+  seeds.add("adapter", "sizes-that-overflow", overflow);
   seeds.add("certificate", "empty", std::string_view("{\"format\": \"surefill-certificate\", \"checks\": []}\n"));
 }
 
@@ -169,7 +179,7 @@ int write_seeds(const std::string& cases, const fs::path& out) {
   add_arguments(seeds);
   add_texts(seeds);
   for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj", "arguments",
-                             "adapter", "certificate"}) {
+                             "c_api", "adapter", "certificate"}) {
     std::printf("%s: %zu seeds\n", target, seeds.count(target));
   }
   return 0;

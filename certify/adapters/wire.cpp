@@ -3,6 +3,8 @@
 
 #include <cstring>
 
+#include "surefill/surefill.hpp"
+
 namespace surefill::adapters {
 
 namespace {
@@ -47,6 +49,14 @@ class Reader {
   bool ok_ = true;
 };
 
+// Sizes as S5 and attributes as the adapter has them: then no number of samples or values overflows.
+bool sizes_in_range(const surefill_adapter_scene& scene) {
+  constexpr std::uint32_t kMostSamples = 16;
+  const auto side_ok = [](std::uint32_t side) { return side >= 1 && side <= std::uint32_t{kMaxTargetSize}; };
+  return side_ok(scene.width) && side_ok(scene.height) && scene.samples >= 1 && scene.samples <= kMostSamples;
+}
+
+// Precondition: sizes_in_range, which holds for every scene of certify and is asked of every message.
 std::size_t total_samples(const surefill_adapter_scene& scene) {
   return std::size_t{scene.width} * scene.height * scene.samples;
 }
@@ -142,7 +152,12 @@ bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result) {
   const bool has_initial_depth = reader.word() != 0;
   // Each attribute and each draw takes a word at least, so that these numbers cannot ask for memory without end.
   if (!reader.ok() || scene.attribute_count > words.size() || scene.draw_count > words.size()) return false;
-  for (std::uint32_t k = 0; k < scene.attribute_count; ++k) result.components.push_back(reader.word());
+  if (!sizes_in_range(scene)) return false;
+  for (std::uint32_t k = 0; k < scene.attribute_count; ++k) {
+    const std::uint32_t components = reader.word();
+    if (components > kMaxComponents) return false;
+    result.components.push_back(components);
+  }
   if (has_initial_depth) scene.initial_depth = reader.numbers(total_samples(scene));
   result.draws.resize(scene.draw_count);
   result.attributes.resize(scene.draw_count);

@@ -144,7 +144,10 @@ class Arguments {
 
  private:
   static bool read_draw(const void* from, std::size_t stride, surefill_draw* c) {
-    return read_struct(from, SUREFILL_SIZE_TO(surefill_draw, culling_box), c) && c->struct_size == stride;
+    // Of a draw with another size than the first, the list may hold less than that.
+    std::size_t size;
+    std::memcpy(&size, from, sizeof size);
+    return size == stride && read_struct(from, SUREFILL_SIZE_TO(surefill_draw, culling_box), c);
   }
 
   static bool good_stride(const surefill_draw& c) {
@@ -167,8 +170,10 @@ class Arguments {
     };
     return overlaps(target.count) || overlaps(target.index) || overlaps(target.depth) ||
            overlaps(target.barycentrics) ||
-           std::any_of(target.attributes.begin(), target.attributes.end(),
-                       [&overlaps](const AttributeTarget& attribute) { return overlaps(attribute.values); });
+           // A list that is null, or too long, is not read: validate() refuses it.
+           (target.attributes.data() != nullptr &&
+            std::any_of(target.attributes.begin(), target.attributes.end(),
+                        [&overlaps](const AttributeTarget& attribute) { return overlaps(attribute.values); }));
   }
 
   // How many of a draw's attribute arrays can be read.
@@ -257,7 +262,10 @@ const char* surefill_version(void) {
 }
 
 const char* surefill_status_text(surefill_status status) {
-  switch (status) {
+  std::uint32_t value;  // C lets any number pass, C++ has no such enumerators
+  static_assert(sizeof value == sizeof status);
+  std::memcpy(&value, &status, sizeof value);
+  switch (value) {
     case SUREFILL_NULL_TARGET:
       return "the target is null";
     case SUREFILL_NULL_VIEWPORT:
@@ -275,7 +283,7 @@ const char* surefill_status_text(surefill_status status) {
     case SUREFILL_DRAW_VERTEX_STRIDE:
       return "a draw's vertex stride is under 16 bytes, no multiple of 4, or too large";
     default:
-      return status_text(static_cast<Status>(status));
+      return status_text(static_cast<Status>(value));
   }
 }
 

@@ -89,6 +89,7 @@ class DrawRenderer {
     if (draw_.scissor) {
       limits = {std::max(limits.x0, draw_.scissor->x0), std::max(limits.y0, draw_.scissor->y0),
                 std::min(limits.x1, draw_.scissor->x1), std::min(limits.y1, draw_.scissor->y1)};
+      if (limits.empty()) limits = {};
     }
     const std::size_t triangles = draw_.indices.size() / 3;
     for (std::size_t t = 0; t < triangles; ++t) rasterize(static_cast<std::uint32_t>(t), limits);

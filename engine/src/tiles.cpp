@@ -161,6 +161,7 @@ class Renderer {
     if (const auto& scissor = draws_[draw].scissor) {
       region = {std::max(region.x0, scissor->x0), std::max(region.y0, scissor->y0), std::min(region.x1, scissor->x1),
                 std::min(region.y1, scissor->y1)};
+      if (region.empty()) region = {};  // of a scissor that may end at the least int
     }
     return {&draws_[draw], first_ordinal, region, sample_, tie_shift(draws_[draw].fill_rule), depth_, greater_};
   }

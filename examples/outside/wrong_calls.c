@@ -171,6 +171,9 @@ static void huge_vertex_stride(Call* c) {
 static void strided_null_vertices(Call* c) {
   c->draws[1].vertices = NULL, c->draws[1].vertex_stride = 32;
 }
+static void null_attribute_list_and_stride(Call* c) {
+  c->target.attributes = NULL, c->draws[1].vertex_stride = 32, c->draws[1].vertex_count = 1;
+}
 static void output_is_strided_input(Call* c) {
   c->draws[1].vertices = (const surefill_vertex*)c->barycentrics, c->draws[1].vertex_stride = 20;
 }
@@ -270,6 +273,7 @@ static const struct {
     CASE(location, SUREFILL_TARGET_ATTRIBUTE_LOCATION),
     CASE(five_components, SUREFILL_TARGET_ATTRIBUTES),
     CASE(null_attribute_list, SUREFILL_TARGET_ATTRIBUTES),
+    CASE(null_attribute_list_and_stride, SUREFILL_TARGET_ATTRIBUTES),
     CASE(many_attributes, SUREFILL_TARGET_ATTRIBUTES),
     CASE(null_vertices, SUREFILL_DRAW_VERTICES),
     CASE(small_vertex_stride, SUREFILL_DRAW_VERTEX_STRIDE),

@@ -24,7 +24,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <bool kDepth, bool kWinner, bool kCount>
 class Rasterizer {
  public:
-  Rasterizer(const DrawJob& job, const Canvas& canvas, BandSet bands, Statistics& statistics)
+  Rasterizer(const DrawJob& job, const Canvas& canvas, const BandSet& bands, Statistics& statistics)
       : job_(job), draw_(*job.draw), canvas_(canvas), bands_(bands), statistics_(statistics), shift_(job.shift) {
     if (draw_.scissor) {  // else what lies beyond the target is drawn where nobody looks
       const PixelBox& r = job.region;
@@ -49,7 +49,7 @@ class Rasterizer {
       batch_ = &batches[i];
       for (std::uint32_t live = batch_->live; live != 0; live &= live - 1) {
         const auto lane = static_cast<std::uint32_t>(__builtin_ctz(live));
-        if (bands_.sets > 1 && !OwnsOne(lane)) continue;
+        if (!bands_.all && !OwnsOne(lane)) continue;
         if ((batch_->small >> lane & 1) != 0) {
           Small(lane);
           continue;
@@ -80,6 +80,7 @@ class Rasterizer {
     for (std::uint32_t small = batch.live & batch.small; small != 0; small &= small - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(small));
       for (int y = batch.first_y[lane] & ~3; y <= batch.last_y[lane]; y += 4) {
+        if (!bands_.owns(y >> kTileLog2)) continue;
         for (int x = batch.first_x[lane] & ~3; x <= batch.last_x[lane]; x += 4) {
           const std::size_t offset = canvas_.offset_of(x, y);
           hwy::Prefetch(canvas_.depth + offset);
@@ -208,7 +209,7 @@ class Rasterizer {
     Place(area, x, y);
     const int columns = (batch.last_x[lane] - x) >> 2, rows = (batch.last_y[lane] - y) >> 2;
     std::uint32_t cells = ~outside & ((0x2222u << columns) - 0x1111u) & ((0x10u << (4 * rows)) - 1);
-    if (bands_.sets > 1) cells &= OwnedCells(y);
+    if (!bands_.all) cells &= OwnedCells(y);
     partly_.Append(lane, cells);
   }
 
@@ -340,7 +341,7 @@ class Rasterizer {
         cells &=
             Mask4x4((first_x - area_x) >> 2, (last_x - area_x) >> 2, (first_y - area_y) >> 2, (last_y - area_y) >> 2);
       }
-      if (bands_.sets > 1) cells &= OwnedCells(y + area_y);
+      if (!bands_.all) cells &= OwnedCells(y + area_y);
       if (hides) {
         const std::size_t block = canvas_.block_of(x + area_x, y + area_y);
         const auto below = static_cast<std::size_t>(canvas_.blocks_x());
@@ -655,7 +656,7 @@ class Rasterizer {
   const DrawJob& job_;
   const Draw& draw_;
   const Canvas canvas_;
-  const BandSet bands_;
+  const BandSet& bands_;
   Statistics& statistics_;
   const TieShift shift_;
   bool partial_ = false, with_identifiers_ = false, ordered_ = false, clamps_ = false;
@@ -671,7 +672,7 @@ class Rasterizer {
   std::uint32_t exact_position_ = kNoTriangle;
 };
 
-void Rasterize(const DrawJob& job, std::span<const Batch> batches, const Canvas& canvas, BandSet bands,
+void Rasterize(const DrawJob& job, std::span<const Batch> batches, const Canvas& canvas, const BandSet& bands,
                Statistics& statistics) {
   if (canvas.depth == nullptr) {
     if (canvas.count != nullptr) Rasterizer<false, false, true>(job, canvas, bands, statistics).Run(batches);

@@ -119,8 +119,14 @@ struct ShadeJob {
 
 // The bands that one thread draws at a time: every `sets`-th.
 struct BandSet {
-  int set = 0, sets = 1;
-  bool owns(int band) const { return sets == 1 || band % sets == set; }
+  std::uint64_t owned[kMaxTargetSize / kTileSize / 64] = {};
+  bool all = true;
+
+  BandSet(int set, int sets) : all(sets == 1) {
+    for (int band = set; band < kMaxTargetSize / kTileSize; band += sets)
+      owned[band >> 6] |= std::uint64_t{1} << (band & 63);
+  }
+  bool owns(int band) const { return (owned[band >> 6] >> (band & 63) & 1) != 0; }
 };
 
 // The vector code for one instruction set.
@@ -128,7 +134,7 @@ struct Kernels {
   // Sets up the triangles [first, first + count) of a draw, count <= kBatch, and counts them.
   void (*set_up)(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& batch, Statistics& statistics);
   // Draws batches of one draw, in order.
-  void (*rasterize)(const DrawJob& job, std::span<const Batch> batches, const Canvas& canvas, BandSet bands,
+  void (*rasterize)(const DrawJob& job, std::span<const Batch> batches, const Canvas& canvas, const BandSet& bands,
                     Statistics& statistics);
   // Writes barycentrics and attributes of the rows [y0, y1).
   void (*shade)(const ShadeJob& job, const Canvas& canvas, int y0, int y1, Statistics& statistics);

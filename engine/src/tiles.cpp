@@ -19,11 +19,8 @@
 namespace surefill::fast {
 namespace {
 
-// A chunk of batches is set up and then drawn: one that stays in the first caches on one thread, one that is worth
-// passing around on several.
-constexpr std::size_t kChunkBatches = 16, kSharedChunkBatches = 2048;
-// Pieces of a chunk that threads take one at a time: when one is slow, the others have something left to do.
-constexpr int kPiecesPerThread = 4;
+// So many batches are set up and then drawn: they stay in the first caches.
+constexpr std::size_t kChunkBatches = 16;
 
 // Memory without exceptions, on cache lines; large pieces on large pages, where the system has them: triangles are
 // drawn all over the image.
@@ -55,33 +52,22 @@ class Buffer {
   std::unique_ptr<T[], Free> data_;
 };
 
-// The batches of one draw within a chunk.
-struct Segment {
-  std::size_t draw;
-  std::uint32_t first_triangle;        // position in the draw
-  std::size_t first_batch, end_batch;  // in the chunk
-};
-
 class Renderer {
  public:
   Renderer(const Target& target, std::span<const Draw> draws, int threads)
       : target_(target),
         draws_(draws),
         threads_(std::min(threads, (target.height + kTileSize - 1) >> kTileLog2)),  // a band is drawn by one
-        team_(threads_),
-        pieces_(threads_ == 1 ? 1 : kPiecesPerThread * threads_) {
+        team_(threads_) {
     for (const AttributeTarget& attribute : target.attributes) attributes_ |= !attribute.values.empty();
     shading_ = attributes_ || !target.barycentrics.empty();
     visibility_ = shading_ || !target.index.empty();
     depth_ = visibility_ || !target.depth.empty();
-    std::size_t batches = 0;
     for (const Draw& draw : draws) {
-      batches += (draw.indices.size() / 3 + kBatch - 1) / kBatch;
       // Its counts depend on depth; or depth alone does not say what is empty.
       if (draw.depth_mode == DepthMode::clip || (!draw.depth_write && depth_)) visibility_ = depth_ = true;
     }
     if (depth_ && !target.count.empty()) visibility_ = true;
-    chunk_batches_ = std::clamp<std::size_t>(batches, 1, pieces_ == 1 ? kChunkBatches : kSharedChunkBatches);
     greater_ = target.depth_test == DepthTest::greater;
     canvas_.tiles_x = (target.width + kTileSize - 1) >> kTileLog2;
     canvas_.tiles_y = (target.height + kTileSize - 1) >> kTileLog2;
@@ -94,9 +80,8 @@ class Renderer {
       sample_number_ = static_cast<std::size_t>(n);
       sample_ = {location.x / 16.0, location.y / 16.0};
       team_.run(static_cast<std::size_t>(canvas_.tiles_y), [&](std::size_t band) { clear(static_cast<int>(band)); });
-      std::size_t draw = 0;
-      std::uint32_t triangle = 0;
-      while (take_chunk(draw, triangle)) draw_chunk();
+      for (std::size_t draw = 0; draw < draws_.size(); ++draw) jobs_[draw] = job_of(draw);
+      team_.run(static_cast<std::size_t>(threads_), [&](std::size_t set) { draw_bands(static_cast<int>(set)); });
       if (n == 0) {
         for (std::size_t i = 0; i < slots(); ++i) add_triangles(statistics, statistics_[i]);
       }
@@ -112,10 +97,10 @@ class Renderer {
     const std::size_t samples = canvas_.samples(), blocks = canvas_.blocks();
     // A region of 8 x 8 blocks or 8 tiles may begin at the last one.
     const std::size_t beyond = 8 * static_cast<std::size_t>(canvas_.blocks_x()) + 16;
-    segments_.reset(new (std::nothrow) Segment[chunk_batches_]);
     jobs_.reset(new (std::nothrow) DrawJob[draws_.size()]);
     statistics_.reset(new (std::nothrow) Statistics[slots()]());
-    bool ok = segments_ != nullptr && jobs_ != nullptr && statistics_ != nullptr && batches_.allocate(chunk_batches_);
+    bool ok = jobs_ != nullptr && statistics_ != nullptr &&
+              batches_.allocate(kChunkBatches * static_cast<std::size_t>(threads_));
     if (ok && depth_) {
       ok = depth_buffer_.allocate(samples) && block_far_.allocate(blocks + beyond) &&
            tile_far_.allocate(blocks / 64 + 8);
@@ -137,7 +122,7 @@ class Renderer {
     return true;
   }
 
-  std::size_t slots() const { return static_cast<std::size_t>(std::max(pieces_, canvas_.tiles_y)); }
+  std::size_t slots() const { return static_cast<std::size_t>(std::max(threads_, canvas_.tiles_y)); }
 
   static void add_triangles(Statistics& sum, const Statistics& part) {
     sum.triangles += part.triangles;
@@ -155,67 +140,37 @@ class Renderer {
     sum.values_by_expansion += part.values_by_expansion;
   }
 
-  // ---- a chunk: set up, then drawn
-  DrawJob job_of(std::size_t draw, std::uint32_t first_ordinal) const {
+  // ---- triangles
+  DrawJob job_of(std::size_t draw) const {
     PixelBox region{0, 0, target_.width, target_.height};
     if (const auto& scissor = draws_[draw].scissor) {
       region = {std::max(region.x0, scissor->x0), std::max(region.y0, scissor->y0), std::min(region.x1, scissor->x1),
                 std::min(region.y1, scissor->y1)};
-      if (region.empty()) region = {};  // of a scissor that may end at the least int
+      if (region.empty()) region = {};
     }
-    return {&draws_[draw], first_ordinal, region, sample_, tie_shift(draws_[draw].fill_rule), depth_, greater_};
+    const std::uint32_t ordinal =
+        draw == 0 ? 0 : jobs_[draw - 1].first_ordinal + static_cast<std::uint32_t>(draws_[draw - 1].indices.size() / 3);
+    return {&draws_[draw], ordinal, region, sample_, tie_shift(draws_[draw].fill_rule), depth_, greater_};
   }
 
-  // As many triangles from (draw, triangle) on as a chunk holds, and moves (draw, triangle) behind them. False if there
-  // are none.
-  bool take_chunk(std::size_t& draw, std::uint32_t& triangle) {
-    segment_count_ = 0;
-    std::size_t batch = 0;
-    while (draw < draws_.size() && batch < chunk_batches_) {
-      const auto triangles = static_cast<std::uint32_t>(draws_[draw].indices.size() / 3);
-      if (triangle == 0) {
-        const std::uint32_t ordinal =
-            draw == 0 ? 0
-                      : jobs_[draw - 1].first_ordinal + static_cast<std::uint32_t>(draws_[draw - 1].indices.size() / 3);
-        jobs_[draw] = job_of(draw, ordinal);
-      }
-      const std::size_t wanted = (triangles - triangle + kBatch - 1) / kBatch;
-      const std::size_t taken = std::min(wanted, chunk_batches_ - batch);
-      if (taken > 0) segments_[segment_count_++] = {draw, triangle, batch, batch + taken};
-      batch += taken;
-      if (taken == wanted) {
-        ++draw, triangle = 0;
-      } else {
-        triangle += static_cast<std::uint32_t>(taken) * kBatch;
-      }
-    }
-    return batch != 0;
-  }
-
-  void draw_chunk() {
-    const std::size_t batches = segments_[segment_count_ - 1].end_batch;
-    const auto pieces = static_cast<std::size_t>(pieces_);
-    team_.run(pieces, [&](std::size_t piece) {
-      set_up(batches * piece / pieces, batches * (piece + 1) / pieces, statistics_[piece]);
-    });
-    team_.run(pieces, [&](std::size_t piece) {
-      const BandSet bands{static_cast<int>(piece), pieces_};
-      for (std::size_t s = 0; s < segment_count_; ++s) {
-        const Segment& segment = segments_[s];
-        const std::span<const Batch> own{&batches_[segment.first_batch], segment.end_batch - segment.first_batch};
-        kernels_.rasterize(jobs_[segment.draw], own, canvas_, bands, statistics_[piece]);
-      }
-    });
-  }
-
-  void set_up(std::size_t begin, std::size_t end, Statistics& statistics) {
-    for (std::size_t s = 0; s < segment_count_; ++s) {
-      const Segment& segment = segments_[s];
-      const auto triangles = static_cast<std::uint32_t>(draws_[segment.draw].indices.size() / 3);
-      for (std::size_t i = std::max(begin, segment.first_batch); i < std::min(end, segment.end_batch); ++i) {
-        const std::uint32_t first =
-            segment.first_triangle + static_cast<std::uint32_t>(i - segment.first_batch) * kBatch;
-        kernels_.set_up(jobs_[segment.draw], first, std::min(kBatch, triangles - first), batches_[i], statistics);
+  // All triangles into the bands of one set. Each thread sets up all of them for itself: that costs less than passing
+  // what is set up from one core's cache to another's. The first thread counts.
+  void draw_bands(int set) {
+    const auto piece = static_cast<std::size_t>(set);
+    const BandSet bands(set, threads_);
+    Statistics not_counted;
+    Statistics& counted = set == 0 ? statistics_[0] : not_counted;
+    Batch* const batches = &batches_[piece * kChunkBatches];
+    for (std::size_t d = 0; d < draws_.size(); ++d) {
+      const auto triangles = static_cast<std::uint32_t>(draws_[d].indices.size() / 3);
+      for (std::uint32_t first = 0; first < triangles;) {
+        std::size_t n = 0;
+        for (; n < kChunkBatches && first < triangles; ++n) {
+          const std::uint32_t count = std::min(kBatch, triangles - first);
+          kernels_.set_up(jobs_[d], first, count, batches[n], counted);
+          first += count;
+        }
+        kernels_.rasterize(jobs_[d], {batches, n}, canvas_, bands, statistics_[piece]);
       }
     }
   }
@@ -337,16 +292,13 @@ class Renderer {
   std::span<const Draw> draws_;
   int threads_;
   Team team_;
-  int pieces_;
   const Kernels& kernels_ = kernels();
   bool attributes_ = false, shading_ = false, visibility_ = false, depth_ = false, greater_ = false;
   std::size_t sample_number_ = 0;
   SamplePosition sample_{0.5, 0.5};
 
-  std::unique_ptr<Statistics[]> statistics_;  // of each piece of work
+  std::unique_ptr<Statistics[]> statistics_;  // of each thread, and of each band
   std::unique_ptr<DrawJob[]> jobs_;
-  std::unique_ptr<Segment[]> segments_;
-  std::size_t segment_count_ = 0, chunk_batches_ = 0;
   Buffer<Batch> batches_;
   Canvas canvas_;
   Buffer<float> depth_buffer_, block_far_, tile_far_;

@@ -100,7 +100,8 @@ std::string decide_tiles(const TriangleCase& c, int log2, std::atomic<std::uint6
     if ((v.x != 0 && std::fabs(v.x) < 0x1p-120f) || (v.y != 0 && std::fabs(v.y) < 0x1p-120f)) return "";
     v.x = std::ldexp(v.x, -log2), v.y = std::ldexp(v.y, -log2);
   }
-  scaled.width = (c.width >> log2) + 1, scaled.height = (c.height >> log2) + 1;
+  scaled.width = std::min((c.width >> log2) + 1, kMaxTargetSize);
+  scaled.height = std::min((c.height >> log2) + 1, kMaxTargetSize);
   Statistics statistics;
   Triangle triangle;
   if (!triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2], statistics)) return "";

@@ -16,6 +16,8 @@ if(SUREFILL_WERROR)
 endif()
 # Contraction to FMA would silently break exact arithmetic (and make images differ between machines).
 target_compile_options(surefill_flags INTERFACE -ffp-contract=off)
+# For whatever includes Highway: an instruction set that would add size and little speed between its neighbours.
+set(SUREFILL_HIGHWAY HWY_DISABLED_TARGETS=HWY_SSSE3)
 
 if(SUREFILL_SANITIZE)
   add_compile_options(-fsanitize=${SUREFILL_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)

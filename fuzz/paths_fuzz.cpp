@@ -20,7 +20,7 @@ namespace {
 // The instruction sets of this machine, one bit each.
 std::vector<std::int64_t> instruction_sets() {
   std::vector<std::int64_t> sets;
-  const auto all = static_cast<std::uint64_t>(hwy::SupportedTargets());
+  const auto all = static_cast<std::uint64_t>(hwy::SupportedTargets() & HWY_TARGETS);
   for (std::uint64_t rest = all; rest != 0; rest &= rest - 1) sets.push_back(static_cast<std::int64_t>(rest & -rest));
   return sets;
 }

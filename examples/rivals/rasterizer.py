@@ -1,22 +1,20 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-# A rasterizer in plain Python: float64, vertices snapped to 1/256 pixel, top-left rule. Try it with
-#   surefill certify --command "python3 examples/rivals/rasterizer.py"     (docs/adapters.md has the messages)
+"""A rasterizer in plain Python, in fifty lines: float64, vertices snapped to 1/256 pixel, top-left rule. Try it with
+  surefill certify --command "python3 examples/rivals/rasterizer.py"     (docs/adapters.md has the messages)
+It has count, index, depth and one attribute, and takes W <= 0; its profile is d3d11."""
 from array import array
-import struct
-import sys
+import struct, sys
 
-# Has count, index, depth, one attribute; takes W <= 0. Grid of 8 bits, nearest even, top-left; profile d3d11.
 INFO = struct.pack("<64s64s18I", b"plain Python", b"1", 23, 1, 0, 2, 8, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0, 1, 0)
 
-def edge(p, q, s):
-    return (q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0])
+def owns(p, q, s):  # the edge from p to q: what lies to its right, and on it if it is a top or a left one
+    e = (q[0] - p[0]) * (s[1] - p[1]) - (q[1] - p[1]) * (s[0] - p[0])
+    return e > 0 or e == 0 and (p[1] > q[1] or p[1] == q[1] and q[0] > p[0])
 
-def covers(a, b, c, s):
-    if edge(a, b, c) < 0:
-        b, c = c, b
-    owned = lambda p, q, e: e > 0 or e == 0 and (p[1] > q[1] or p[1] == q[1] and q[0] > p[0])
-    return edge(a, b, c) != 0 and all(owned(p, q, edge(p, q, s)) for p, q in ((a, b), (b, c), (c, a)))
+def covers(a, b, c, s):  # whichever way round; no sample if they lie in a line
+    sides = (a, b), (b, c), (c, a)
+    return all(owns(p, q, s) for p, q in sides) or all(owns(q, p, s) for p, q in sides)
 
 def clip(polygon):  # to |X| <= 16385 W, |Y| <= 16385 W: what is left lies in front of the eye
     for axis, sign in (0, 1), (0, -1), (1, 1), (1, -1):
@@ -29,41 +27,35 @@ def clip(polygon):  # to |X| <= 16385 W, |Y| <= 16385 W: what is left lies in fr
     return [v for v in polygon if v[3] > 0]
 
 def draw(body):
-    word, number, at = array("I", body), array("f", body), 9 + array("I", body)[6]
-    width, pixels, parts = word[1], word[1] * word[2], word[9] if word[6] else 0
-    count, index = array("I", [0]) * pixels, array("I", [0xFFFFFFFF]) * pixels
-    depth, shade = array("f", [float("inf")]) * pixels, array("f", [0]) * (pixels * parts)
-    vertices, triangles = word[at:at + 2] if word[7] else (0, 0)
-    position = [list(number[at + 26 + 4 * v:at + 30 + 4 * v]) for v in range(vertices)]
-    corner, values = at + 26 + 8 * vertices, at + 27 + 8 * vertices + 4 * triangles
+    word, number = array("I", body), array("f", body)
+    width, parts, at = word[1], word[9] if word[6] else 0, 35 + word[6]  # at: the vertices
+    vertices, triangles = word[at - 26:at - 24] if word[7] else (0, 0)
+    corners, values = at + 8 * vertices, at + 8 * vertices + 4 * triangles + 1
+    image = [[0, 0xFFFFFFFF, float("inf")] + [0.0] * parts for _ in range(width * word[2])]
     for t in range(triangles):
-        three, name = word[corner + 3 * t:corner + 3 * t + 3], word[corner + 3 * triangles + t]
-        v = [position[i] for i in three]
+        three, name = word[corners + 3 * t:corners + 3 * t + 3], word[corners + 3 * triangles + t]
+        v = [list(number[at + 4 * i:at + 4 * i + 4]) for i in three]
         points = [(round(x / w * 256), round(y / w * 256)) for x, y, z, w in clip(v)]
         planes = [(q[1] * r[3] - r[1] * q[3], q[3] * r[0] - r[3] * q[0], q[0] * r[1] - r[0] * q[1])
                   for q, r in ((v[1], v[2]), (v[2], v[0]), (v[0], v[1]))]  # the edge functions E_i
-        box = [(min(c), max(c)) for c in zip(*points)]
-        for pixel in range(pixels if points else 0):
-            s = (pixel % width * 256 + 128, pixel // width * 256 + 128)
-            if not all(low <= x <= high for x, (low, high) in zip(s, box)):
-                continue
-            if not any(covers(points[0], p, q, s) for p, q in zip(points[1:], points[2:])):
-                continue
-            e = [a * s[0] + b * s[1] + c * 256 for a, b, c in planes]
-            mean = lambda u, ones: sum(x * k for x, k in zip(u, e)) / (sum(o * k for o, k in zip(ones, e)) or 1)
-            z = array("f", [mean([p[2] for p in v], [p[3] for p in v])])[0]
-            count[pixel] += 1
-            if (z, name) < (depth[pixel], index[pixel]):
-                depth[pixel], index[pixel] = z, name
-                for c in range(parts):
-                    shade[pixel * parts + c] = mean([number[values + parts * i + c] for i in three], [1, 1, 1])
-    return b"".join(image.tobytes() for bit, image in ((1, count), (2, index), (4, depth), (16, shade)) if word[0] & bit)
+        box = [range(min(c), max(c) + 1) for c in zip(*points)]
+        for n, pixel in enumerate(image):
+            s = (n % width * 256 + 128, n // width * 256 + 128)
+            fan = zip(points[1:], points[2:]) if all(x in along for x, along in zip(s, box)) else ()
+            if any(covers(points[0], p, q, s) for p, q in fan):
+                e = [a * s[0] + b * s[1] + c * 256 for a, b, c in planes]
+                mean = lambda u, ones: sum(x * k for x, k in zip(u, e)) / (sum(o * k for o, k in zip(ones, e)) or 1)
+                z = array("f", [mean([p[2] for p in v], [p[3] for p in v])])[0]
+                pixel[0] += 1
+                if (z, name) < (pixel[2], pixel[1]):
+                    rows = [number[values + parts * i:values + parts * i + parts] for i in three]
+                    pixel[1:] = [name, z] + [mean(u, [1, 1, 1]) for u in zip(*rows)]
+    columns = [array(kind, (p[i] for p in image)) for i, kind in enumerate("IIf")]
+    columns += [array("f", (u for p in image for u in p[3:]))]
+    return b"".join(column.tobytes() for bit, column in zip((1, 2, 4, 16), columns) if word[0] & bit)
 
-while header := sys.stdin.buffer.read(8):
-    kind, words = struct.unpack("<2I", header)
-    body = sys.stdin.buffer.read(4 * words)
-    if kind == 3:
-        break
-    answer = INFO if kind == 1 else draw(body)
+while (header := sys.stdin.buffer.read(8)) and header[0] != 3:
+    body = sys.stdin.buffer.read(4 * struct.unpack("<2I", header)[1])
+    answer = INFO if header[0] == 1 else draw(body)
     sys.stdout.buffer.write(struct.pack("<2I", 0, len(answer) // 4) + answer)
     sys.stdout.buffer.flush()

@@ -50,12 +50,14 @@ TEST(Paths, OptionsAreChecked) {
 
 #if !defined(SUREFILL_REFERENCE_ONLY)
 
-// The fast path's frames: several samples a pixel among them, no grid, not conservative.
+// Frames of every mode: several samples a pixel among them, Grid, conservative ones.
 corpus::Scene fast_scene(const Category& category, std::uint64_t seed, int size, int triangles) {
   SceneLimits limits;
   limits.max_size = size;
   limits.max_triangles = triangles;
   limits.samples = seed % 3 == 0;
+  limits.grid = seed % 3 == 1;
+  limits.conservative = seed % 3 == 2;
   return random_scene(category, seed, limits);
 }
 

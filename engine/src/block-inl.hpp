@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Batches of triangles into the blocks of the canvas: coverage by int32 edge functions with deferred uncertainty, depth
-// by filter, hierarchical z. What the vector arithmetic cannot tell goes to the scalar Triangle, sample by sample.
+// Batches of triangles into the blocks of the canvas: coverage by int32 edge functions with deferred uncertainty,
+// hierarchical z.
 // Included once for each instruction set by kernels.cpp.
 #if defined(SUREFILL_SRC_BLOCK_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREFILL_SRC_BLOCK_INL_HPP
@@ -11,10 +11,8 @@
 #endif
 
 #include "cell-inl.hpp"
+#include "fragment-inl.hpp"
 #include "hwy/cache_control.h"
-#include "planted.hpp"
-#include "setup-inl.hpp"
-#include "triangle.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
@@ -25,15 +23,7 @@ template <bool kDepth, bool kWinner, bool kCount>
 class Rasterizer {
  public:
   Rasterizer(const DrawJob& job, const Canvas& canvas, const BandSet& bands, Statistics& statistics)
-      : job_(job), draw_(*job.draw), canvas_(canvas), bands_(bands), statistics_(statistics), shift_(job.shift) {
-    if (draw_.scissor) {  // else what lies beyond the target is drawn where nobody looks
-      const PixelBox& r = job.region;
-      partial_ = ((r.x0 | r.y0) & 3) != 0 || (r.x1 & 3) != 0 || (r.y1 & 3) != 0;
-    }
-    with_identifiers_ = kWinner && !draw_.identifiers.empty();
-    ordered_ = with_identifiers_ || !draw_.depth_write;
-    near_ = job.greater ? -1.0f : 0.0f, far_ = job.greater ? 0.0f : 1.0f;
-    clamps_ = draw_.depth_mode == DepthMode::clamp;
+      : job_(job), canvas_(canvas), bands_(bands), writer_(job, canvas, statistics) {
     for (int odd = 0; odd < 4; ++odd) {  // whether an area begins at an odd column of cells, and at an odd row
       for (int n = 0; n < 16; ++n) {
         const int x = (odd & 1) * 4 + (n & 3) * 4, y = (odd >> 1) * 4 + (n >> 2) * 4;
@@ -47,25 +37,73 @@ class Rasterizer {
     for (std::size_t i = 0; i < batches.size(); ++i) {
       if (kDepth && i + 1 < batches.size()) Prefetch(batches[i + 1]);
       batch_ = &batches[i];
-      for (std::uint32_t live = batch_->live; live != 0; live &= live - 1) {
-        const auto lane = static_cast<std::uint32_t>(__builtin_ctz(live));
-        if (!bands_.all && !OwnsOne(lane)) continue;
-        if ((batch_->small >> lane & 1) != 0) {
-          Small(lane);
-          continue;
-        }
-        DrawCells(1);  // the small ones before it
-        if ((batch_->medium >> lane & 1) != 0) {
-          Medium(lane);
-        } else {
-          Large(lane);
-        }
+      if (HWY_UNLIKELY(batch_->clipped != 0 || canvas_.masks != nullptr)) {
+        OneByOne();
+      } else {
+        Lanes(batch_->live);
       }
-      DrawCells(1);
     }
   }
 
  private:
+  // The triangles of some lanes, in order.
+  HWY_INLINE void Lanes(std::uint32_t lanes) {
+    for (; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+      if (!bands_.all && !OwnsOne(lane)) continue;
+      if ((batch_->small >> lane & 1) != 0) {
+        Small(lane);
+        continue;
+      }
+      DrawCells(1);  // the small ones before it
+      if ((batch_->medium >> lane & 1) != 0) {
+        Medium(lane);
+      } else {
+        Large(lane);
+      }
+    }
+    DrawCells(1);
+  }
+
+  // The same where some are clipped, or a visitor has to see each.
+  HWY_NOINLINE void OneByOne() {
+    for (std::uint32_t lanes = batch_->live | batch_->clipped; lanes != 0; lanes &= lanes - 1) {
+      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+      if ((batch_->clipped >> lane & 1) != 0) {
+        Clipped(batch_->position(lane));
+      } else {
+        Lanes(1u << lane);
+      }
+      if (kCount && canvas_.masks != nullptr) writer_.Emit(batch_->position(lane));
+    }
+  }
+
+  // A triangle that Grid clips: the fan of its polygon, or, where the fan has both signs, sample by sample.
+  HWY_NOINLINE void Clipped(std::uint32_t position) {
+    SnappedTriangle& snapped = writer_.Snapped(position);
+    const Batch* const others = batch_;
+    Batch fan;
+    if (SetUpFan(job_, position, snapped, fan)) {
+      batch_ = &fan;
+      Lanes(fan.live);
+      batch_ = others;
+      return;
+    }
+    const double least = std::min(job_.sample.x, job_.sample.y), most = std::max(job_.sample.x, job_.sample.y);
+    const PixelBox box = snapped.box(job_.region, least, most);
+    for (int y = box.y0; y < box.y1; ++y) {
+      if (!bands_.owns(y >> kTileLog2)) continue;
+      for (int x = box.x0; x < box.x1; ++x) {
+        const int facing = snapped.winding({x + job_.sample.x, y + job_.sample.y}, job_.shift);
+        if (facing != 0 && !Culls(facing)) writer_.SlowFragment(position, x, y);
+      }
+    }
+  }
+  bool Culls(int facing) const {
+    const bool front = (facing > 0) == (job_.draw->front_face == FrontFace::clockwise);
+    return job_.draw->cull == (front ? Cull::front : Cull::back);
+  }
+
   bool OwnsOne(std::uint32_t lane) const {
     const int first = batch_->first_y[lane] >> kTileLog2, last = batch_->last_y[lane] >> kTileLog2;
     for (int band = first; band <= last; ++band) {
@@ -107,16 +145,28 @@ class Rasterizer {
       }
     }
   }
+  // What does not depend on the class.
+  HWY_INLINE void LoadLane(Slot& slot, std::uint32_t lane) {
+    const Batch& batch = *batch_;
+    slot.lane = lane, slot.position = batch.position(lane);
+    if (HWY_UNLIKELY(writer_.looks_at_lanes)) {
+      slot.first_x = batch.first_x[lane], slot.last_x = batch.last_x[lane];
+      slot.first_y = batch.first_y[lane], slot.last_y = batch.last_y[lane];
+    }
+    if (!kDepth) return;
+    slot.z_error = batch.z_error[lane];
+    slot.z_most = std::numeric_limits<float>::infinity();
+    if (HWY_UNLIKELY(job_.draw->grid.has_value())) slot.z_least = batch.z_least[lane], slot.z_most = batch.z_most[lane];
+    slot.slow_depth = (batch.slow_depth >> lane & 1) != 0;
+    slot.clip = (batch.clip >> lane & 1) != 0;
+    slot.special = writer_.IsSpecial(slot);
+  }
   HWY_INLINE void LoadPlane(Slot& slot, std::uint32_t lane) {
     const Batch& batch = *batch_;
-    slot.position = batch.first + lane;
+    LoadLane(slot, lane);
     if (!kDepth) return;
     slot.origin_x = batch.origin_x(lane), slot.origin_y = batch.origin_y(lane);
     slot.z = batch.z[lane], slot.z_x = batch.z_x[lane], slot.z_y = batch.z_y[lane];
-    slot.z_error = batch.z_error[lane];
-    slot.slow_depth = (batch.slow_depth >> lane & 1) != 0;
-    slot.clip = (batch.clip >> lane & 1) != 0;
-    slot.special = kCount || ordered_ || slot.slow_depth || slot.clip;
     const CellDouble dd;
     const auto zx = hn::Set(dd, slot.z_x), zy = hn::Set(dd, slot.z_y);
     for (std::size_t i = 0; i < 16; i += hn::Lanes(dd)) {
@@ -129,7 +179,7 @@ class Rasterizer {
     for (std::size_t k = 0; k < 3; ++k) {
       slot.a[k] = batch_->a[k][lane], slot.b[k] = batch_->b[k][lane], slot.most[k] = batch_->most[k][lane];
     }
-    slot.doubt = 2 * batch_->bound[lane];
+    slot.doubt = batch_->doubt[lane];
   }
 
   HWY_INLINE void LoadFloatSteps(Slot& slot) const {
@@ -198,13 +248,9 @@ class Rasterizer {
         hn::Store(hn::Add(z, hn::Mul(four, step)), dd, area.z + i);
       }
       LoadFloatSteps(slot);
-      slot.z_error = batch.z_error[lane];
-      slot.slow_depth = (batch.slow_depth >> lane & 1) != 0;
-      slot.clip = (batch.clip >> lane & 1) != 0;
-      slot.special = kCount || ordered_ || slot.slow_depth || slot.clip;
     }
-    slot.doubt = 2 * batch.bound[lane];
-    slot.position = batch.first + lane;
+    LoadLane(slot, lane);
+    slot.doubt = batch.doubt[lane];
     const int x = batch.first_x[lane] & ~3, y = batch.first_y[lane] & ~3;
     Place(area, x, y);
     const int columns = (batch.last_x[lane] - x) >> 2, rows = (batch.last_y[lane] - y) >> 2;
@@ -246,7 +292,15 @@ class Rasterizer {
       slot.b[i] = static_cast<std::int32_t>(std::nearbyint(b[i]));
       most[i] = (kTileSize - 1) * (std::max(a[i], 0.0) + std::max(b[i], 0.0)) + 1;  // 1: far more than E's error here
     }
-    slot.doubt = 2 * (kExactCoverage ? kTileBound : 0);
+    constexpr std::int32_t kBound = kExactCoverage ? kTileBound : 0;
+    slot.doubt = 2 * kBound;
+    if (HWY_UNLIKELY(job_.draw->conservative == Conservative::over && (batch_->behind >> lane & 1) != 0)) {
+      // As in StoreEdges.
+      double half = 0;
+      for (std::size_t i = 0; i < 3; ++i) half = std::max(half, (std::fabs(a[i]) + std::fabs(b[i])) / 2);
+      slot.doubt += static_cast<std::int32_t>(std::ceil(half)) + 1;
+      for (double& m : most) m += slot.doubt;
+    }
     for (std::size_t k = 0; k < 3; ++k)
       slot.most[k] = 3 * (std::max(slot.a[k], 0) + std::max(slot.b[k], 0)) + slot.doubt;
     LoadSteps(slot);
@@ -276,17 +330,17 @@ class Rasterizer {
         if (hides) {
           const hn::Rebind<float, DoubleTag> df;
           const auto dx = hn::Sub(column, hn::Set(d, slot.origin_x));
-          const auto nearest =
-              hn::Add(hn::Mul(hn::Set(d, slot.z_x), dx), hn::Set(d, slot.z_y * (ty - slot.origin_y) + (slot.z + dip)));
+          const auto nearest = hn::Min(
+              hn::Add(hn::Mul(hn::Set(d, slot.z_x), dx), hn::Set(d, slot.z_y * (ty - slot.origin_y) + (slot.z + dip))),
+              hn::Set(d, slot.z_most));
           const auto far = hn::PromoteTo(d, hn::LoadU(df, canvas_.tile_far + canvas_.tile_of(tx, ty)));
-          possible = hn::AndNot(with_identifiers_ ? hn::Gt(nearest, far) : hn::Ge(nearest, far), possible);
+          possible = hn::AndNot(writer_.with_identifiers ? hn::Gt(nearest, far) : hn::Ge(nearest, far), possible);
         }
         for (std::uint32_t tiles = Bits(d, possible); tiles != 0; tiles &= tiles - 1) {
           const auto n = static_cast<std::size_t>(__builtin_ctz(tiles));
           std::int32_t at[3];
           for (std::size_t i = 0; i < 3; ++i) {
-            at[i] = static_cast<std::int32_t>(std::nearbyint(std::clamp(e[i][n], -kEdgeLimit, kEdgeLimit))) -
-                    slot.doubt / 2;
+            at[i] = static_cast<std::int32_t>(std::nearbyint(std::clamp(e[i][n], -kEdgeLimit, kEdgeLimit))) - kBound;
           }
           const int x0 = tx + static_cast<int>(n) * kTileSize;
           if (Tile(slot, lane, at, x0, ty)) UpdateTileFar(x0, ty);
@@ -345,7 +399,7 @@ class Rasterizer {
       if (hides) {
         const std::size_t block = canvas_.block_of(x + area_x, y + area_y);
         const auto below = static_cast<std::size_t>(canvas_.blocks_x());
-        cells &= kCellsOfBlocks[VisibleBlocks(area.z[0], dips, canvas_.block_far + block, below)];
+        cells &= kCellsOfBlocks[VisibleBlocks(slot, area.z[0], dips, canvas_.block_far + block, below)];
         // Of each whole block, its first cell.
         std::uint32_t whole = cells & full;
         whole &= whole >> 1;
@@ -373,19 +427,20 @@ class Rasterizer {
   }
   // Which of an area's four blocks may hold something farther than the triangle: bit 0 the upper left one, then to the
   // right, then below. dips: from the depth at the area's first sample to less than any in each block.
-  HWY_INLINE std::uint32_t VisibleBlocks(double z, const double (&dips)[4], const float* far, std::size_t below) const {
+  HWY_INLINE std::uint32_t VisibleBlocks(const Slot& slot, double z, const double (&dips)[4], const float* far,
+                                         std::size_t below) const {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
     const hn::CappedTag<double, 4> d;
     const hn::CappedTag<float, 4> df;
     const hn::CappedTag<float, 2> row;
-    const auto nearest = hn::Add(hn::Set(d, z), hn::Load(d, dips));
+    const auto nearest = hn::Min(hn::Add(hn::Set(d, z), hn::Load(d, dips)), hn::Set(d, slot.z_most));
     const auto there = hn::PromoteTo(d, hn::Combine(df, hn::LoadU(row, far + below), hn::LoadU(row, far)));
-    return ~Bits(d, with_identifiers_ ? hn::Gt(nearest, there) : hn::Ge(nearest, there)) & 15;
+    return ~Bits(d, writer_.with_identifiers ? hn::Gt(nearest, there) : hn::Ge(nearest, there)) & 15;
 #else
     std::uint32_t visible = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const double nearest = z + dips[i], there = far[(i >> 1) * below + (i & 1)];
-      visible |= static_cast<std::uint32_t>(!(with_identifiers_ ? nearest > there : nearest >= there)) << i;
+      const double nearest = std::min<double>(z + dips[i], slot.z_most), there = far[(i >> 1) * below + (i & 1)];
+      visible |= static_cast<std::uint32_t>(!(writer_.with_identifiers ? nearest > there : nearest >= there)) << i;
     }
     return visible;
 #endif
@@ -425,7 +480,7 @@ class Rasterizer {
       for (std::size_t i = 0; i < 16; i += kCellLanes) {
         const auto value = LeastEdge(slot, area, cell, i);
         if (kExactCoverage) doubtful = hn::Or(doubtful, Doubtful(value, slot.doubt));
-        Fragments<false>(slot, area, cell, hn::Not(hn::Lt(value, hn::Zero(d))), offset, i);
+        writer_.template Fragments<false>(slot, area, cell, hn::Not(hn::Lt(value, hn::Zero(d))), offset, i);
       }
     }
     if (HWY_UNLIKELY(!hn::AllFalse(du, doubtful))) Settle(slots);
@@ -440,12 +495,13 @@ class Rasterizer {
       const Area& area = areas_[wholly_.items[n] >> 4];
       const std::size_t cell = wholly_.items[n] & 15;
       const std::size_t offset = area.offset + area.cell_offset[cell];
-      for (std::size_t i = 0; i < 16; i += kCellLanes) Fragments<true>(slots_[0], area, cell, all, offset, i);
+      for (std::size_t i = 0; i < 16; i += kCellLanes)
+        writer_.template Fragments<true>(slots_[0], area, cell, all, offset, i);
     }
     wholly_.size = 0;
   }
 
-  // ---- uncertain lanes: within the bound of an edge
+  // ---- uncertain lanes: within the doubt of an edge
   HWY_NOINLINE void Settle(std::size_t slots) {
     const CellUint du;
     for (std::size_t n = 0; n < partly_.size; ++n) {
@@ -457,172 +513,16 @@ class Rasterizer {
         auto bits = Bits(du, Doubtful(LeastEdge(slot, area, cell, i), slot.doubt)) << i;
         for (; bits != 0; bits &= bits - 1) {
           const int k = __builtin_ctz(bits), x = cell_x + (k & 3), y = cell_y + (k >> 2);
-          if (InRegion(x, y) && Exact(slot).covers(Position(x, y), shift_, statistics_)) SlowFragment(slot, x, y);
+          if (writer_.Covers(slot, *batch_, x, y)) writer_.SlowFragment(slot, x, y);
         }
       }
     }
-  }
-  bool InRegion(int x, int y) const {
-    return x >= job_.region.x0 && x < job_.region.x1 && y >= job_.region.y0 && y < job_.region.y1;
-  }
-  SamplePosition Position(int x, int y) const {
-    return {x + job_.sample.x, y + job_.sample.y};
-  }
-
-  // The triangle of the slot for exact arithmetic.
-  Triangle& Exact(const Slot& slot) {
-    if (exact_position_ != slot.position) {
-      Statistics unused;
-      exact_.set_up(VertexOf(draw_, slot.position, 0), VertexOf(draw_, slot.position, 1),
-                    VertexOf(draw_, slot.position, 2), unused);
-      exact_position_ = slot.position;
-    }
-    return exact_;
-  }
-
-  // A covered sample that is drawn by exact arithmetic alone.
-  HWY_NOINLINE void SlowFragment(const Slot& slot, int x, int y) {
-    const std::size_t offset = canvas_.offset_of(x, y);
-    float z = 0;
-    if (kDepth) {
-      if (!Exact(slot).depth(Position(x, y), draw_.depth_mode, &z, statistics_)) return;
-      if (job_.greater) z = 0.0f - z;
-    }
-    if (kCount) ++canvas_.count[offset];
-    if (kDepth && Passes(slot.position, z, offset)) Store(slot.position, z, offset);
-  }
-  void Store(std::uint32_t position, float z, std::size_t offset) {
-    if (kWinner) canvas_.winner[offset] = job_.first_ordinal + position;
-    if (draw_.depth_write) canvas_.depth[offset] = z;
-  }
-
-  // V1, V3 and M5: nearer, or as near as a triangle of this draw with a larger identifier; with depth write off,
-  // nearer, and among the triangles of this draw the largest identifier. Uncertain samples come late: order is no help.
-  bool Passes(std::uint32_t position, float z, std::size_t offset) const {
-    const float stored = canvas_.depth[offset];
-    if (!kWinner) return z < stored;
-    const std::uint32_t winner = canvas_.winner[offset], other = winner - job_.first_ordinal;
-    const bool of_this_draw = winner != kNoTriangle && winner >= job_.first_ordinal;
-    if (!draw_.depth_write) return z < stored && (!of_this_draw || !Before(position, other));
-    if (z < stored) return true;
-    return z == stored && of_this_draw && Before(position, other);
-  }
-  // Is the triangle's identifier the smaller one?
-  bool Before(std::uint32_t position, std::uint32_t other) const {
-    if (SUREFILL_PLANT(merge_order)) return position < other;
-    return with_identifiers_ ? draw_.identifiers[position] < draw_.identifiers[other] : position < other;
-  }
-
-  // ---- fragments of lanes i ... of a cell. kSkip: leave early where nothing is seen, which pays where that is likely.
-  template <bool kSkip>
-  HWY_INLINE void Fragments(const Slot& slot, const Area& area, std::size_t cell, hn::Mask<CellInt> covered,
-                            std::size_t offset, std::size_t i) {
-    if (HWY_UNLIKELY(partial_)) covered = hn::And(covered, LanesInRegion(area.CellX(cell), area.CellY(cell), i));
-    if constexpr (!kDepth) {
-      Count(covered, offset + i);
-      return;
-    }
-    const CellFloat df;
-    auto lanes = hn::RebindMask(df, covered);
-    const double z = area.z[cell];
-    // low <= the stored depth <= high, and it is both if they are equal.
-    const auto low = kExactDepth ? RoundDepths(z - slot.z_error, slot.z_step + i)
-                                 : hn::Add(hn::Set(df, static_cast<float>(z)), hn::Load(df, slot.z_step_float + i));
-    if (HWY_UNLIKELY(slot.special)) {
-      SpecialFragments(slot, covered, low, area.CellX(cell), area.CellY(cell), offset, i, z);
-      return;
-    }
-    float* const depth = canvas_.depth + offset + i;
-    const auto before = hn::Load(df, depth);
-    lanes = hn::And(lanes, hn::Lt(low, before));
-    if (kSkip && hn::AllFalse(df, lanes)) return;
-    const auto high = kExactDepth ? RoundDepths(z + slot.z_error, slot.z_step + i) : low;
-    const auto known = hn::And(lanes, hn::Eq(low, high));
-    hn::Store(hn::IfThenElse(known, low, before), df, depth);
-    if constexpr (kWinner) {
-      const CellUint du;
-      hn::BlendedStore(hn::Set(du, job_.first_ordinal + slot.position), hn::RebindMask(du, known), du,
-                       canvas_.winner + offset + i);
-    }
-    const auto unknown = hn::AndNot(known, lanes);
-    if (HWY_UNLIKELY(!hn::AllFalse(df, unknown)))
-      SlowLanes(slot, Bits(df, unknown) << i, area.CellX(cell), area.CellY(cell));
-  }
-
-  // The same where fragments count, may be clipped or clamped, have no known bound, or more than depth says who is
-  // seen.
-  HWY_NOINLINE void SpecialFragments(const Slot& slot, hn::Mask<CellInt> covered, hn::Vec<CellFloat> low, int cell_x,
-                                     int cell_y, std::size_t offset, std::size_t i, double z) {
-    [[maybe_unused]] const CellInt d;
-    const CellFloat df;
-    if (slot.slow_depth) {
-      SlowLanes(slot, Bits(d, covered) << i, cell_x, cell_y);
-      return;
-    }
-    auto lanes = hn::RebindMask(df, covered);
-    auto high = RoundDepths(z + slot.z_error, slot.z_step + i);
-    if (slot.clip) {
-      const auto least = hn::Set(df, near_), most = hn::Set(df, far_);
-      if (clamps_) {
-        low = hn::Min(hn::Max(low, least), most);
-        high = hn::Min(hn::Max(high, least), most);
-      } else {
-        const auto out = hn::Or(hn::Lt(high, least), hn::Gt(low, most));
-        const auto in = hn::And(hn::Gt(low, least), hn::Lt(high, most));
-        lanes = hn::AndNot(out, lanes);
-        SlowLanes(slot, Bits(df, hn::AndNot(in, lanes)) << i, cell_x, cell_y);
-        lanes = hn::And(lanes, in);
-      }
-    }
-    const auto unknown = hn::AndNot(hn::Eq(low, high), lanes);
-    SlowLanes(slot, Bits(df, unknown) << i, cell_x, cell_y);
-    lanes = hn::AndNot(unknown, lanes);
-    if constexpr (kCount) Count(hn::RebindMask(d, lanes), offset + i);
-    if (!ordered_) {
-      lanes = hn::And(lanes, hn::Lt(low, hn::Load(df, canvas_.depth + offset + i)));
-      hn::BlendedStore(low, lanes, df, canvas_.depth + offset + i);
-      if constexpr (kWinner) {
-        const CellUint du;
-        hn::BlendedStore(hn::Set(du, job_.first_ordinal + slot.position), hn::RebindMask(du, lanes), du,
-                         canvas_.winner + offset + i);
-      }
-      return;
-    }
-    alignas(64) float depths[kCellLanes];
-    hn::Store(low, df, depths);
-    for (std::uint32_t bits = Bits(df, lanes); bits != 0; bits &= bits - 1) {
-      const auto k = static_cast<std::size_t>(__builtin_ctz(bits));
-      if (Passes(slot.position, depths[k], offset + i + k)) Store(slot.position, depths[k], offset + i + k);
-    }
-  }
-
-  HWY_NOINLINE void SlowLanes(const Slot& slot, std::uint32_t bits, int cell_x, int cell_y) {
-    for (; bits != 0; bits &= bits - 1) {
-      const int k = __builtin_ctz(bits);
-      SlowFragment(slot, cell_x + (k & 3), cell_y + (k >> 2));
-    }
-  }
-
-  HWY_INLINE void Count(hn::Mask<CellInt> covered, std::size_t at) {
-    const CellInt d;
-    const CellUint du;
-    const auto one = hn::BitCast(du, hn::VecFromMask(d, covered));  // -1 where covered
-    hn::Store(hn::Sub(hn::Load(du, canvas_.count + at), one), du, canvas_.count + at);
-  }
-
-  HWY_INLINE hn::Mask<CellInt> LanesInRegion(int cell_x, int cell_y, std::size_t i) const {
-    const CellInt d;
-    const auto x = hn::Add(hn::Set(d, cell_x), hn::Load(d, kColumn + i));
-    const auto y = hn::Add(hn::Set(d, cell_y), hn::Load(d, kRow + i));
-    const PixelBox& r = job_.region;
-    return hn::And(hn::And(hn::Lt(hn::Set(d, r.x0 - 1), x), hn::Lt(x, hn::Set(d, r.x1))),
-                   hn::And(hn::Lt(hn::Set(d, r.y0 - 1), y), hn::Lt(y, hn::Set(d, r.y1))));
   }
 
   // ---- hierarchical z
   // Can a block or tile be skipped because all it holds is nearer? Not where fragments count, or move.
   bool Hides(const Slot& slot) const {
-    return kDepth && !kCount && !slot.slow_depth && !(slot.clip && clamps_);
+    return kDepth && !kCount && !slot.slow_depth && !(slot.clip && writer_.clamps);
   }
   // From the depth at a first sample to less than any within `reach` steps each way, errors included; the last term is
   // for a first sample outside the triangle's box.
@@ -654,13 +554,9 @@ class Rasterizer {
   }
 
   const DrawJob& job_;
-  const Draw& draw_;
   const Canvas canvas_;
   const BandSet& bands_;
-  Statistics& statistics_;
-  const TieShift shift_;
-  bool partial_ = false, with_identifiers_ = false, ordered_ = false, clamps_ = false;
-  float near_ = 0, far_ = 1;
+  FragmentWriter<kDepth, kWinner, kCount> writer_;
 
   const Batch* batch_ = nullptr;
   Slot slots_[kBatch];
@@ -668,17 +564,16 @@ class Rasterizer {
   alignas(64) std::int32_t area_step_[3][16];  // edge functions: from the first sample of a tile to those of its areas
   std::uint32_t cell_offsets_[4][16];
   CellList partly_, wholly_;
-  Triangle exact_;
-  std::uint32_t exact_position_ = kNoTriangle;
 };
 
 void Rasterize(const DrawJob& job, std::span<const Batch> batches, const Canvas& canvas, const BandSet& bands,
                Statistics& statistics) {
   if (canvas.depth == nullptr) {
-    if (canvas.count != nullptr) Rasterizer<false, false, true>(job, canvas, bands, statistics).Run(batches);
+    if (canvas.count != nullptr || canvas.masks != nullptr)
+      Rasterizer<false, false, true>(job, canvas, bands, statistics).Run(batches);
   } else if (canvas.winner == nullptr) {
     Rasterizer<true, false, false>(job, canvas, bands, statistics).Run(batches);
-  } else if (canvas.count == nullptr) {
+  } else if (canvas.count == nullptr && canvas.masks == nullptr) {
     Rasterizer<true, true, false>(job, canvas, bands, statistics).Run(batches);
   } else {
     Rasterizer<true, true, true>(job, canvas, bands, statistics).Run(batches);

@@ -46,6 +46,11 @@ struct Canvas {
   float* tile_far = nullptr;        // no depth in the tile is larger
   std::uint32_t* winner = nullptr;  // null if visibility is not wanted. Meaningful where the depth was written
   std::uint32_t* count = nullptr;   // null if counts are not wanted
+  // For a visitor, instead of counts: 64 bits a block, the samples of the triangle at hand; and room for the list of
+  // blocks that have some.
+  std::uint64_t* masks = nullptr;
+  std::uint32_t* touched = nullptr;
+  const CoverageVisitor* visitor = nullptr;
   // Offsets of the first sample of a cell: the sum of that of its column and that of its row.
   const std::uint32_t *column = nullptr, *row = nullptr;
   int tiles_x = 0, tiles_y = 0;
@@ -73,13 +78,14 @@ struct Canvas {
 
 constexpr std::uint32_t kBatch = 8;  // triangles that are set up together
 
-// Triangles first, first + 1, ... of a draw, ready to be drawn. A triangle with D < 0 has its edges negated.
+// Triangles of a draw, ready to be drawn. A triangle with D < 0 has its edges negated.
 struct alignas(64) Batch {
   // Edge functions, scaled and rounded to integers: steps in x and y and, less the bound of their rounding, the value
-  // at the first sample of the origin. All three edges of a lane have the same bound; it is 0 where the integers are
-  // exact and a tie is already decided. Only of small and medium lanes.
-  std::int32_t a[3][kBatch], b[3][kBatch], e[3][kBatch], bound[kBatch];
-  std::int32_t most[3][kBatch];  // the largest change of an edge function within a cell, and twice the bound
+  // at the first sample of the origin. A sample is inside if all three values are >= 0, outside if one is below
+  // -doubt; in between, exact arithmetic tells. doubt is twice the bound, and 0 where the integers are exact and a tie
+  // is already decided. Only of small and medium lanes.
+  std::int32_t a[3][kBatch], b[3][kBatch], e[3][kBatch], doubt[kBatch];
+  std::int32_t most[3][kBatch];  // the largest change of an edge function within a cell, and doubt
   // Samples that the triangle can cover, both ends included.
   std::int32_t first_x[kBatch], last_x[kBatch], first_y[kBatch], last_y[kBatch];
   // Depth at the origin's first sample, its steps, and a bound of the error at any sample of the box. Smaller is
@@ -87,14 +93,23 @@ struct alignas(64) Batch {
   alignas(64) double z[kBatch], z_x[kBatch], z_y[kBatch], z_error[kBatch];
   alignas(64) double edge_a[3][kBatch], edge_b[3][kBatch], edge_c[3][kBatch];  // unscaled; of lanes that are not small
 
+  // Grid only: the snapped corners in pixels, and the range that depth is clamped to.
+  alignas(64) double corner_x[3][kBatch], corner_y[3][kBatch];
+  float z_least[kBatch], z_most[kBatch];
+
   // Sets of lanes.
   std::uint32_t live;        // to be drawn
   std::uint32_t small;       // box within 4 x 4 cells; the origin is the box's first cell
   std::uint32_t medium;      // box within 8 x 8 blocks; the origin is the box's first block, as it is for all others
   std::uint32_t slow_depth;  // no error bound of depth is known
   std::uint32_t clip;        // depth may lie outside 0..1 somewhere
+  std::uint32_t behind;      // not all W > 0
+  std::uint32_t negative;    // D < 0
+  std::uint32_t clipped;     // not live: Grid clips the triangle, and its fan becomes a batch of its own
   std::uint32_t first;       // position in the draw of lane 0
+  std::uint32_t step;        // from a lane's position to the next one's: 1, or 0 in a fan
 
+  std::uint32_t position(std::uint32_t lane) const { return first + step * lane; }
   int origin_x(std::size_t lane) const { return first_x[lane] & ((small >> lane & 1) != 0 ? ~3 : ~7); }
   int origin_y(std::size_t lane) const { return first_y[lane] & ((small >> lane & 1) != 0 ? ~3 : ~7); }
 };
@@ -108,6 +123,8 @@ struct DrawJob {
   TieShift shift;
   bool depth;  // is depth needed?
   bool greater;
+  std::uint32_t number;  // in the list of draws
+  int sample_number;     // within a pixel
 };
 
 // What is seen, for barycentrics and attributes.

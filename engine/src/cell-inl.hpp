@@ -101,8 +101,11 @@ struct Slot {
   int origin_x, origin_y;  // where depth is z
   std::int32_t a[3], b[3];
   std::int32_t most[3], least[3];  // largest and smallest change of an edge function within a cell; most: and `doubt`
-  std::int32_t doubt;              // twice the bound of the integers
+  std::int32_t doubt;              // as in Batch
+  std::uint32_t lane;              // of the batch
   std::uint32_t position;          // in the draw
+  float z_least, z_most;           // of a snapped triangle; else z_most is infinite
+  int first_x, last_x, first_y, last_y;  // only where lanes are looked at: samples that the triangle can cover
   bool slow_depth, clip;
   bool special;  // not drawn as most are
 

@@ -183,12 +183,12 @@ std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator
     return rest.sign();
   };
   // |t| < 2^27, and the estimates, the division and the difference have relative errors below 2^-48 together.
-  const double kError = SUREFILL_PLANT(snap_bound) ? 0x1p-40 : 0x1p-21;
+  const double error = snap_error();
   const double estimate = numerator.estimate() / denominator.estimate() * scale - offset / 16.0;
   double floor_of_t = std::floor(estimate);
   const double fraction = estimate - floor_of_t;  // exact
   int above_floor = 1, above_half = fraction > 0.5 ? 1 : -1;
-  if (fraction > kError && fraction < 1 - kError && std::fabs(fraction - 0.5) > kError) {
+  if (fraction > error && fraction < 1 - error && std::fabs(fraction - 0.5) > error) {
     ++statistics.values_by_filter;
   } else {
     ++statistics.values_by_expansion;
@@ -222,6 +222,12 @@ void widen(const Expansion<kZ>& z, const Expansion<kW>& w, DepthRange* range) {
 }
 
 }  // namespace
+
+double snapped_position(float c, float w, int offset, const Grid& grid, Statistics& statistics) {
+  Expansion<8> numerator, denominator;
+  numerator.add(c), denominator.add(w);
+  return static_cast<double>(snap(numerator, denominator, offset, grid, statistics)) / (16 << grid.bits);
+}
 
 bool SnappedTriangle::set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid,
                              Statistics& statistics) {

@@ -8,11 +8,20 @@
 #include <cstdint>
 
 #include "bounds.hpp"
+#include "planted.hpp"
 #include "triangle.hpp"
 
 namespace surefill {
 
 constexpr double kGuardBand = kMaxTargetSize + 1;  // g of G1: |X| <= g W and |Y| <= g W
+
+// An estimate of a coordinate in units of the grid, |t| < 2^27, is a rounded value's neighbour only within this.
+inline double snap_error() {
+  return SUREFILL_PLANT(snap_bound) ? 0x1p-40 : 0x1p-21;
+}
+
+// c / w, which lies in [-g, g], rounded to the grid as G1 says: a position in pixels. w > 0.
+double snapped_position(float c, float w, int offset, const Grid& grid, Statistics& statistics);
 
 // A corner of the clipped triangle: homogeneous coordinates, exact, W > 0 once all four planes have been applied. Sums
 // of four products of a float32 or a 39-bit difference of floats by a float32, so at most eight terms.
@@ -39,6 +48,18 @@ class SnappedTriangle {
  public:
   // False if the triangle's hull contains the eye (G1). Vertices are finite (B1). The grid is valid.
   bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Statistics& statistics);
+
+  // The clipped polygon on the grid: positions in pixels, exact.
+  int corners() const { return polygon_.corners; }
+  SamplePosition corner(int n) const {
+    return {static_cast<double>(point_[n].x) / units_per_pixel_, static_cast<double>(point_[n].y) / units_per_pixel_};
+  }
+  // What depth is clamped to (G2).
+  const DepthRange& depth_range() {
+    know_depth_range();
+    return depth_range_;
+  }
+  const Triangle& unsnapped() const { return triangle_; }
 
   // The part of `limits` with a sample in the box of the snapped polygon. Offsets as for screen_box.
   PixelBox box(PixelBox limits, double least_offset, double largest_offset) const;

@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "canvas.hpp"
+#include "grid.hpp"
 #include "hwy/cache_control.h"
 #include "hwy/highway.h"
 #include "triangle.hpp"
@@ -108,7 +109,7 @@ class Shader {
           winner_ = winner;
           draw_ = DrawOf(winner, draw_);
           position_ = winner - job_.jobs[draw_].first_ordinal;
-          exact_ready_ = false;
+          exact_ready_ = snapped_ready_ = false;
           seen_ = &seen_triangles_[winner % kSeen];
           if (seen_->winner != winner) SetUp(winner);
         }
@@ -156,6 +157,7 @@ class Shader {
                           kUnit * ((size[0] + size[1]) + size[2])};
     const double ax = a[0] * v[0]->x, by = b[0] * v[0]->y, cw = c[0] * v[0]->w;
     seen_->affine = {0, 0, (ax + by) + cw, kUnit * ((std::fabs(ax) + std::fabs(by)) + std::fabs(cw))};
+    for (std::size_t i = 0; i < 3; ++i) seen_->edge[i] = {a[i], b[i], c[i], kUnit * size[i]};
     for (std::size_t n = 0; n < count_; ++n) {
       const Output& out = outputs_[n];
       Planes& planes = seen_->planes[n];
@@ -193,27 +195,53 @@ class Shader {
   SamplePosition PositionOf(int x, int y) {
     const SamplePosition centre{x + 0.5, y + 0.5};
     if (target_.samples == 1) return centre;
-    if (target_.attribute_location == AttributeLocation::centre && Exact().plane_in_front(centre)) return centre;
-    const TieShift shift = job_.jobs[draw_].shift;
-    Statistics unused;
-    if (Exact().covers(centre, shift, unused)) return centre;
+    if (target_.attribute_location == AttributeLocation::centre && HasValues(centre)) return centre;
+    if (Covers(centre)) return centre;
     for (int n = 0; n < target_.samples; ++n) {
       const SampleLocation location = sample_location(target_.samples, n);
       const SamplePosition p{x + location.x / 16.0, y + location.y / 16.0};
-      if (Exact().covers(p, shift, unused)) return p;
+      if (Covers(p)) return p;
     }
     return centre;  // not reached: the triangle is seen at a sample of this pixel
+  }
+  bool HasValues(SamplePosition p) {
+    Statistics unused;
+    return draw().grid ? Snapped().has_weights(p, unused) : Exact().plane_in_front(p);
+  }
+  bool Covers(SamplePosition p) {
+    const TieShift shift = job_.jobs[draw_].shift;
+    Statistics unused;
+    return draw().grid ? Snapped().winding(p, shift) != 0 : Exact().covers(p, shift, unused);
+  }
+
+  // Grid: do all E_i surely have D's sign at p? Then none of them counts as 0 (G2).
+  bool AllEdgesCount(SamplePosition p) const {
+    const Denominator& det = seen_->affine;
+    if (!(std::fabs(det.c) > det.error)) return false;
+    const double sign = det.c < 0 ? -1 : 1;
+    for (const Denominator& e : seen_->edge) {
+      if (!(sign * ((e.a * p.x + e.b * p.y) + e.c) > e.error)) return false;
+    }
+    return true;
   }
 
   void Values(SamplePosition p, std::size_t s) {
     const D d;
     const F df;
+    const bool exactly = draw().grid && !AllEdgesCount(p);
     for (std::size_t n = 0; n < count_; ++n) {
       const Output& out = outputs_[n];
       const Planes& planes = seen_->planes[n];
       float* const values = out.values + s * out.components;
       if (planes.interpolation == Interpolation::flat) {
         for (std::uint32_t c = 0; c < out.components; ++c) values[c] = static_cast<float>(planes.c[c]) + 0.0f;
+        continue;
+      }
+      if (HWY_UNLIKELY(exactly)) {
+        for (std::uint32_t c = 0; c < out.components; ++c) {
+          const float u[3] = {ValueOf(out, 0, c), ValueOf(out, 1, c), ValueOf(out, 2, c)};
+          values[c] = Snapped().attribute(p, u, planes.interpolation, statistics_);
+        }
         continue;
       }
       const Denominator& m = planes.interpolation == Interpolation::perspective ? seen_->perspective : seen_->affine;
@@ -260,6 +288,16 @@ class Shader {
     return exact_;
   }
 
+  SnappedTriangle& Snapped() {
+    if (!snapped_ready_) {
+      Statistics unused;
+      snapped_.set_up(draw().vertices[IndexOf(0)], draw().vertices[IndexOf(1)], draw().vertices[IndexOf(2)],
+                      *draw().grid, unused);
+      snapped_ready_ = true;
+    }
+    return snapped_;
+  }
+
   const ShadeJob& job_;
   const Target& target_;
   const Canvas canvas_;
@@ -270,7 +308,8 @@ class Shader {
   // Triangles that were set up lately, by the low bits of their ordinals; and the one at hand.
   struct Seen {
     std::uint32_t winner = kNoTriangle;
-    Denominator perspective{}, affine{};
+    Denominator perspective{}, affine{};  // the sum of the E_i, and D
+    Denominator edge[3]{};                // E_i
     Planes planes[kMaxAttributes + 1];
   };
   static constexpr std::uint32_t kSeen = 32;
@@ -279,7 +318,8 @@ class Shader {
   std::uint32_t winner_ = kNoTriangle, position_ = 0;
   std::size_t draw_ = 0;
   Triangle exact_;
-  bool exact_ready_ = false;
+  SnappedTriangle snapped_;
+  bool exact_ready_ = false, snapped_ready_ = false;
 };
 
 void Shade(const ShadeJob& job, const Canvas& canvas, int y0, int y1, Statistics& statistics) {

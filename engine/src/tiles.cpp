@@ -150,7 +150,15 @@ class Renderer {
     }
     const std::uint32_t ordinal =
         draw == 0 ? 0 : jobs_[draw - 1].first_ordinal + static_cast<std::uint32_t>(draws_[draw - 1].indices.size() / 3);
-    return {&draws_[draw], ordinal, region, sample_, tie_shift(draws_[draw].fill_rule), depth_, greater_};
+    return {&draws_[draw],
+            ordinal,
+            region,
+            sample_,
+            tie_shift(draws_[draw].fill_rule),
+            depth_,
+            greater_,
+            static_cast<std::uint32_t>(draw),
+            static_cast<int>(sample_number_)};
   }
 
   // All triangles into the bands of one set. Each thread sets up all of them for itself: that costs less than passing
@@ -311,7 +319,6 @@ bool supports(const Target& target, std::span<const Draw> draws) {
   (void)target;
   std::size_t triangles = 0;
   for (const Draw& draw : draws) {
-    if (draw.grid || draw.conservative != Conservative::none) return false;
     triangles += draw.indices.size() / 3;
     if (triangles >= kNoTriangle) return false;
   }

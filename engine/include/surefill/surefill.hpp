@@ -18,7 +18,8 @@
 //            A triangle with a NaN or an infinity is dropped and counted, and changes nothing else [B1].
 // Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
 //            only if Options asks for them, and they end with it.
-// Memory     A call allocates what it needs and frees it: up to 12 bytes a pixel (by what is asked for) and 3 MiB, on the
+// Memory     A call allocates what it needs and frees it: up to 12 bytes a pixel (by what is asked for) and 3 MiB, on
+// the
 //            reference path up to 8 bytes a sample. When that cannot be had, the status is out_of_memory.
 #ifndef SUREFILL_SUREFILL_HPP
 #define SUREFILL_SUREFILL_HPP
@@ -222,6 +223,22 @@ inline constexpr int kMaxThreads = 256;  // of one call
 struct Options {
   int threads = 1;  // 1..kMaxThreads; if fewer can be started, fewer do the work
   Path path = Path::automatic;
+};
+
+// The samples of an 8 x 8 block of pixels that a triangle covers.
+struct CoverageBlock {
+  std::uint32_t draw, triangle;  // positions: in the list of draws, in the draw
+  int x, y;                      // the block's first pixel: multiples of 8
+  int sample;                    // of each pixel
+  std::uint64_t mask;            // bit 8 j + i: pixel (x + i, y + j). Not 0
+
+  bool full() const { return mask == ~std::uint64_t{0}; }
+};
+
+// Receives blocks: visit(context, blocks). All blocks of one call belong to one triangle and sample.
+struct CoverageVisitor {
+  void (*visit)(void* context, std::span<const CoverageBlock> blocks) = nullptr;
+  void* context = nullptr;
 };
 
 // The number of samples of a target: width * height * samples. 0 if a size is outside S5.

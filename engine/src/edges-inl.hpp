@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What set-up is made of: triangles in lanes, ranges of pixels, edge functions in double and their scales.
+// Included once for each instruction set by kernels.cpp.
+#if defined(SUREFILL_SRC_EDGES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREFILL_SRC_EDGES_INL_HPP
+#undef SUREFILL_SRC_EDGES_INL_HPP
+#else
+#define SUREFILL_SRC_EDGES_INL_HPP
+#endif
+
+#include <cstring>
+
+#include "canvas.hpp"
+#include "hwy/highway.h"
+#include "planted.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surefill::fast::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// Doubles, and floats and integers of as many lanes; a batch is kBatch / Lanes of them.
+using DoubleTag = hn::CappedTag<double, kBatch>;
+using FloatTag = hn::Rebind<float, DoubleTag>;
+using IntTag = hn::Rebind<std::int32_t, DoubleTag>;
+using Double = hn::Vec<DoubleTag>;
+using Float = hn::Vec<FloatTag>;
+
+// The low Lanes bits: which lanes are set.
+template <class D, class M>
+HWY_INLINE std::uint32_t Bits(D d, M mask) {
+#if HWY_TARGET == HWY_AVX3
+  (void)d;
+  return static_cast<std::uint32_t>(mask.raw);
+#elif HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
+  return static_cast<std::uint32_t>(hn::detail::BitsFromMask(mask)) & ((1u << hn::Lanes(d)) - 1);
+#else
+  std::uint8_t bytes[8] = {};
+  hn::StoreMaskBits(d, mask, bytes);
+  std::uint32_t bits;
+  std::memcpy(&bits, bytes, sizeof bits);
+  return bits;
+#endif
+}
+
+// The lanes of a set.
+HWY_INLINE hn::Mask<DoubleTag> LanesOf(std::uint32_t bits) {
+  const DoubleTag d;
+  alignas(64) double lanes[kBatch];
+  for (std::size_t l = 0; l < kBatch; ++l) lanes[l] = static_cast<double>(bits >> l & 1);
+  return hn::Gt(hn::Load(d, lanes), hn::Zero(d));
+}
+
+// The three vertices of as many triangles as FloatTag has lanes.
+struct Corner {
+  Float x, y, z, w;
+};
+
+// vertices[l]: the vertex of lane l, four floats.
+template <class D>
+HWY_INLINE Corner LoadCorner(D d, const Vertex* const* vertices) {
+  Corner corner;
+#if HWY_TARGET != HWY_SCALAR
+  if constexpr (hn::MaxLanes(D()) >= 4) {
+    const hn::Repartition<double, D> d64;
+    const auto row = [&](std::size_t l) {
+      const hn::CappedTag<float, 4> d4;
+      const auto low = hn::LoadU(d4, &vertices[l]->x);
+      if constexpr (hn::MaxLanes(D()) == 8) {
+        return hn::Combine(d, hn::LoadU(d4, &vertices[l + 4]->x), low);
+      } else {
+        return low;
+      }
+    };
+    const auto r0 = row(0), r1 = row(1), r2 = row(2), r3 = row(3);
+    const auto xy01 = hn::BitCast(d64, hn::InterleaveLower(d, r0, r1));
+    const auto xy23 = hn::BitCast(d64, hn::InterleaveLower(d, r2, r3));
+    const auto zw01 = hn::BitCast(d64, hn::InterleaveUpper(d, r0, r1));
+    const auto zw23 = hn::BitCast(d64, hn::InterleaveUpper(d, r2, r3));
+    corner.x = hn::BitCast(d, hn::InterleaveLower(d64, xy01, xy23));
+    corner.y = hn::BitCast(d, hn::InterleaveUpper(d64, xy01, xy23));
+    corner.z = hn::BitCast(d, hn::InterleaveLower(d64, zw01, zw23));
+    corner.w = hn::BitCast(d, hn::InterleaveUpper(d64, zw01, zw23));
+    return corner;
+  }
+#endif
+  alignas(16) float lanes[4 * hn::MaxLanes(D())];
+  for (std::size_t l = 0; l < hn::Lanes(d); ++l) std::memcpy(lanes + 4 * l, vertices[l], sizeof(Vertex));
+  hn::LoadInterleaved4(d, lanes, corner.x, corner.y, corner.z, corner.w);
+  return corner;
+}
+
+// What a triangle of which all W > 0 reaches along one axis, as in reach() but in float32: division and subtraction are
+// monotonic and the sample coordinates i + offset are float32 values, so again no margin is needed. first, last:
+// pixels, clamped to [begin, end); the box is empty if last < first.
+HWY_INLINE void PixelRange(Float c0, Float c1, Float c2, Float w0, Float w1, Float w2, double offset, int begin,
+                           int end, std::int32_t* first, std::int32_t* last) {
+  const FloatTag d;
+  const IntTag di;
+  const Float q0 = hn::Div(c0, w0), q1 = hn::Div(c1, w1), q2 = hn::Div(c2, w2);
+  const Float shift = hn::Set(d, static_cast<float>(offset));
+  const Float low = hn::Sub(hn::Min(hn::Min(q0, q1), q2), shift);
+  const Float high = hn::Sub(hn::Max(hn::Max(q0, q1), q2), shift);
+  const Float least = hn::Set(d, static_cast<float>(begin)), most = hn::Set(d, static_cast<float>(end));
+  const Float f = hn::Ceil(hn::Min(hn::Max(low, least), most));
+  const Float l = hn::Floor(hn::Max(hn::Min(high, hn::Sub(most, hn::Set(d, 1.0f))), hn::Sub(least, hn::Set(d, 1.0f))));
+  // Integers of at most 15 bits: the sum with 1.5 * 2^23 has them in its low bits.
+  const Float magic = hn::Set(d, 0x1.8p23f);
+  const auto bits = hn::BitCast(di, magic);
+  hn::Store(hn::Sub(hn::BitCast(di, hn::Add(f, magic)), bits), di, first);
+  hn::Store(hn::Sub(hn::BitCast(di, hn::Add(l, magic)), bits), di, last);
+}
+
+// v to the nearest integer, for |v| <= 2^31: the sum with 1.5 * 2^52 has it in its low bits.
+HWY_INLINE hn::Vec<IntTag> RoundToInt(Double v) {
+  const hn::RebindToUnsigned<DoubleTag> du;
+  const hn::RebindToUnsigned<IntTag> du32;
+  return hn::BitCast(IntTag(), hn::TruncateTo(du32, hn::BitCast(du, hn::Add(v, hn::Set(DoubleTag(), 0x1.8p52)))));
+}
+
+// The pixels of [begin, end) in a range of integers, both ends included; last < first if there are none.
+HWY_INLINE void StoreRange(Double low, Double high, int begin, int end, std::int32_t* first, std::int32_t* last) {
+  const DoubleTag d;
+  const Double least = hn::Set(d, begin), most = hn::Set(d, end), one = hn::Set(d, 1.0);
+  hn::Store(RoundToInt(hn::Min(hn::Max(low, least), most)), IntTag(), first);
+  hn::Store(RoundToInt(hn::Max(hn::Min(high, hn::Sub(most, one)), hn::Sub(least, one))), IntTag(), last);
+}
+
+// The pixels whose closed squares the triangle touches along one axis (M4), exactly, for W > 0: a quotient of float32
+// numbers that is not an integer n lies farther from n than its rounding to double can carry it (docs/precision.md).
+HWY_INLINE void TouchedRange(Float c0, Float c1, Float c2, Float w0, Float w1, Float w2, int begin, int end,
+                             std::int32_t* first, std::int32_t* last) {
+  const DoubleTag d;
+  const Double q0 = hn::Div(hn::PromoteTo(d, c0), hn::PromoteTo(d, w0));
+  const Double q1 = hn::Div(hn::PromoteTo(d, c1), hn::PromoteTo(d, w1));
+  const Double q2 = hn::Div(hn::PromoteTo(d, c2), hn::PromoteTo(d, w2));
+  StoreRange(hn::Sub(hn::Ceil(hn::Min(hn::Min(q0, q1), q2)), hn::Set(d, 1.0)), hn::Floor(hn::Max(hn::Max(q0, q1), q2)),
+             begin, end, first, last);
+}
+
+// Vertex k of a triangle of the draw.
+inline const Vertex& VertexOf(const Draw& draw, std::uint32_t triangle, std::size_t k) {
+  return draw.vertices[draw.indices[std::size_t{3} * triangle + k]];
+}
+
+inline bool AllFinite(const Vertex& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+HWY_INLINE bool AttributesFinite(const Draw& draw, std::uint32_t triangle) {
+  for (const AttributeArray& attribute : draw.attributes) {
+    const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const float* values = &attribute.values[draw.indices[std::size_t{3} * triangle + k] * stride];
+      for (std::uint32_t c = 0; c < attribute.components; ++c) {
+        if (!std::isfinite(values[c])) return false;
+      }
+    }
+  }
+  return true;
+}
+
+// A power of two that brings max(|a|, |b|) into [2^exponent, 2^(exponent + 1)). Where both are 0 (a constant edge, c !=
+// 0), one that makes c huge. exponent: added to 2046, in the exponent's place.
+HWY_INLINE Double Scale(Double a, Double b, hn::Vec<hn::RebindToUnsigned<DoubleTag>> exponent) {
+  const DoubleTag d;
+  const hn::RebindToUnsigned<DoubleTag> du;
+  const Double largest = hn::Max(hn::Max(hn::Abs(a), hn::Abs(b)), hn::Set(d, 0x1p-400));
+  const auto field = hn::And(hn::BitCast(du, largest), hn::Set(du, 0x7FF0000000000000u));
+  return hn::BitCast(d, hn::Sub(exponent, field));
+}
+
+constexpr double kEdgeLimit = 0x1p30;  // beyond it, no step within 64 samples changes the sign
+constexpr int kSmallExponent = 24;     // 15 * 2 * 2^25 < 2^30
+constexpr int kTileExponent = 22;      // 63 * 2 * 2^23 < 2^30
+// Bounds of the total rounding in units: half a unit for each coefficient times the steps (15 and 63 each way), half
+// for the start, and less than 2^-8 for the double arithmetic before (docs/precision.md).
+constexpr std::int32_t kSmallBound = 16, kTileBound = 64;
+
+// The largest amount that decides a tie of integer edges and no other sign: their values are multiples of it.
+constexpr double kTieStep = 0x1p-12;
+
+// p - q == r without rounding error, lane by lane, for r computed as p - q.
+HWY_INLINE hn::Mask<DoubleTag> DifferenceIsExact(Double p, Double q, Double r) {
+  return hn::And(hn::Eq(hn::Sub(p, r), q), hn::Eq(hn::Add(r, q), p));
+}
+
+// The signs of D in the uncertain lanes, exactly; `degenerate` gets the lanes where it is 0.
+HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(const Draw& draw, std::uint32_t first, std::uint32_t uncertain,
+                                            hn::Mask<DoubleTag> negative, std::uint32_t& degenerate,
+                                            Statistics& statistics) {
+  const DoubleTag dd;
+  alignas(64) double signs[kBatch];
+  hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
+  for (; uncertain != 0; uncertain &= uncertain - 1) {
+    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(uncertain));
+    const EdgeFunction edge(VertexOf(draw, first + lane, 1), VertexOf(draw, first + lane, 2));
+    const int sign = determinant_sign(edge, VertexOf(draw, first + lane, 0), statistics);
+    signs[lane] = sign < 0 ? -1 : 1;
+    if (sign == 0) degenerate |= 1u << lane;
+  }
+  return hn::Lt(hn::Load(dd, signs), hn::Zero(dd));
+}
+
+// Lanes whose integer edges are exact: every coefficient without rounding error, a and b integers after scaling, c a
+// multiple of 2^-10. Their values at samples are then multiples of 2^-10 below 2^42: without rounding error in double.
+HWY_NOINLINE hn::Mask<DoubleTag> IntegerEdges(const Double (&x)[3], const Double (&y)[3], const Double (&w)[3],
+                                              const Double (&a)[3], const Double (&b)[3], const Double (&c)[3],
+                                              const Double (&scale)[3]) {
+  const DoubleTag dd;
+  auto exact = hn::Eq(hn::Zero(dd), hn::Zero(dd));
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    exact = hn::And(exact, DifferenceIsExact(hn::Mul(y[j], w[k]), hn::Mul(w[j], y[k]), a[i]));
+    exact = hn::And(exact, DifferenceIsExact(hn::Mul(w[j], x[k]), hn::Mul(x[j], w[k]), b[i]));
+    exact = hn::And(exact, DifferenceIsExact(hn::Mul(x[j], y[k]), hn::Mul(y[j], x[k]), c[i]));
+    const Double as = hn::Mul(a[i], scale[i]), bs = hn::Mul(b[i], scale[i]);
+    const Double cs = hn::Mul(c[i], hn::Mul(scale[i], hn::Set(dd, 0x1p10)));
+    exact = hn::And(exact, hn::And(hn::Eq(hn::Round(as), as), hn::Eq(hn::Round(bs), bs)));
+    exact = hn::And(exact, hn::And(hn::Eq(hn::Round(cs), cs), hn::Lt(hn::Abs(cs), hn::Set(dd, 0x1p52))));
+  }
+  return exact;
+}
+
+// Edge functions about the first sample (px, py) of each lane's origin, and bounds of the errors of e.
+struct Edges {
+  Double a[3], b[3], c[3], e[3], error[3];
+};
+
+HWY_INLINE void HomogeneousEdges(const Double (&x)[3], const Double (&y)[3], const Double (&w)[3], Double px, Double py,
+                                 Edges& edges) {
+  const Double bound = hn::Set(DoubleTag(), kEdgeErrorBound);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+    edges.a[i] = hn::Sub(hn::Mul(y[j], w[k]), hn::Mul(w[j], y[k]));
+    edges.b[i] = hn::Sub(hn::Mul(w[j], x[k]), hn::Mul(x[j], w[k]));
+    edges.c[i] = hn::Sub(hn::Mul(x[j], y[k]), hn::Mul(y[j], x[k]));
+    const Double ax = hn::Mul(edges.a[i], px), by = hn::Mul(edges.b[i], py);
+    edges.e[i] = hn::Add(hn::Add(ax, by), edges.c[i]);
+    edges.error[i] = hn::Mul(bound, hn::Add(hn::Add(hn::Abs(ax), hn::Abs(by)), hn::Abs(edges.c[i])));
+  }
+}
+
+// D = sum W_i E_i, taken at the origin, where little cancels, and a bound of its error.
+HWY_INLINE void Determinant(const Double (&w)[3], const Edges& edges, Double& det, Double& error) {
+  const DoubleTag dd;
+  det = error = hn::Zero(dd);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Double we = hn::Mul(w[i], edges.e[i]);
+    det = hn::Add(det, we);
+    error = hn::Add(
+        error, hn::Add(hn::Mul(hn::Abs(w[i]), edges.error[i]), hn::Mul(hn::Set(dd, kEdgeErrorBound), hn::Abs(we))));
+  }
+}
+
+}  // namespace surefill::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SUREFILL_SRC_EDGES_INL_HPP

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What becomes of covered samples: counted, depth by filter, depth test, who is seen. What the vector arithmetic cannot
+// tell goes to the scalar Triangle, sample by sample.
+// Included once for each instruction set by kernels.cpp.
+#if defined(SUREFILL_SRC_FRAGMENT_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREFILL_SRC_FRAGMENT_INL_HPP
+#undef SUREFILL_SRC_FRAGMENT_INL_HPP
+#else
+#define SUREFILL_SRC_FRAGMENT_INL_HPP
+#endif
+
+#include "cell-inl.hpp"
+#include "conservative.hpp"
+#include "grid.hpp"
+#include "planted.hpp"
+#include "setup-inl.hpp"
+#include "triangle.hpp"
+
+HWY_BEFORE_NAMESPACE();
+namespace surefill::fast::HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+// kWinner and kCount only with a canvas that has them; kWinner implies kDepth.
+template <bool kDepth, bool kWinner, bool kCount>
+class FragmentWriter {
+ public:
+  FragmentWriter(const DrawJob& job, const Canvas& canvas, Statistics& statistics)
+      : job_(job), draw_(*job.draw), canvas_(canvas), statistics_(statistics), touched_(canvas.touched) {
+    // Else what lies beyond the target is drawn where nobody looks.
+    if (draw_.scissor || canvas.masks != nullptr) {
+      const PixelBox& r = job.region;
+      looks_at_lanes = ((r.x0 | r.y0) & 3) != 0 || (r.x1 & 3) != 0 || (r.y1 & 3) != 0;
+    }
+    // Moved outwards, two edges meet beyond the triangle's corner.
+    looks_at_lanes = looks_at_lanes || draw_.conservative == Conservative::over;
+    with_identifiers = kWinner && !draw_.identifiers.empty();
+    snaps_ = kDepth && draw_.grid.has_value();
+    ordered_ = with_identifiers || !draw_.depth_write;
+    near_ = job.greater ? -1.0f : 0.0f, far_ = job.greater ? 0.0f : 1.0f;
+    clamps = draw_.depth_mode == DepthMode::clamp;
+  }
+
+  // Not drawn as most are?
+  bool IsSpecial(const Slot& slot) const { return kCount || ordered_ || snaps_ || slot.slow_depth || slot.clip; }
+
+  // Does the triangle of the slot, a lane of the batch, cover the sample (x, y)? Exactly.
+  bool Covers(const Slot& slot, const Batch& batch, int x, int y) {
+    const PixelBox& r = job_.region;
+    if (x < r.x0 || x >= r.x1 || y < r.y0 || y >= r.y1) return false;
+    if (draw_.grid) return SnappedCovers(*draw_.grid, batch, slot.lane, Position(x, y), job_.shift);
+    Triangle& triangle = Exact(slot.position);
+    if (draw_.conservative == Conservative::none) return triangle.covers(Position(x, y), job_.shift, statistics_);
+    const PixelSquare square(triangle, x, y, statistics_);
+    return draw_.conservative == Conservative::over ? square.touched() : square.inside();
+  }
+
+  // A covered sample that is drawn by exact arithmetic alone.
+  HWY_NOINLINE void SlowFragment(const Slot& slot, int x, int y) { SlowFragment(slot.position, x, y); }
+  void SlowFragment(std::uint32_t position, int x, int y) {
+    const std::size_t offset = canvas_.offset_of(x, y);
+    float z = 0;
+    if (kDepth) {
+      const bool kept = draw_.grid ? Snapped(position).depth(Position(x, y), draw_.depth_mode, &z, statistics_)
+                                   : Exact(position).depth(Position(x, y), draw_.depth_mode, &z, statistics_);
+      if (!kept) return;
+      if (job_.greater) z = 0.0f - z;
+    }
+    if (kCount) CountOne(offset);
+    if (kDepth && Passes(position, z, offset)) Store(position, z, offset);
+  }
+
+  // The clipped triangle at `position`, for exact arithmetic. Grid only.
+  SnappedTriangle& Snapped(std::uint32_t position) {
+    if (snapped_position_ != position) {
+      Statistics unused;
+      snapped_.set_up(VertexOf(draw_, position, 0), VertexOf(draw_, position, 1), VertexOf(draw_, position, 2),
+                      *draw_.grid, unused);
+      snapped_position_ = position;
+    }
+    return snapped_;
+  }
+
+  // Lanes i ... of a cell. kSkip: leave early where nothing is seen, which pays where that is likely.
+  template <bool kSkip>
+  HWY_INLINE void Fragments(const Slot& slot, const Area& area, std::size_t cell, hn::Mask<CellInt> covered,
+                            std::size_t offset, std::size_t i) {
+    if (HWY_UNLIKELY(looks_at_lanes))
+      covered = hn::And(covered, LanesInBox(slot, area.CellX(cell), area.CellY(cell), i));
+    if constexpr (!kDepth) {
+      Count(covered, offset + i);
+      return;
+    }
+    const CellFloat df;
+    auto lanes = hn::RebindMask(df, covered);
+    const double z = area.z[cell];
+    // low <= the stored depth <= high, and it is both if they are equal.
+    const auto low = kExactDepth ? RoundDepths(z - slot.z_error, slot.z_step + i)
+                                 : hn::Add(hn::Set(df, static_cast<float>(z)), hn::Load(df, slot.z_step_float + i));
+    if (HWY_UNLIKELY(slot.special)) {
+      SpecialFragments(slot, covered, low, area.CellX(cell), area.CellY(cell), offset, i, z);
+      return;
+    }
+    float* const depth = canvas_.depth + offset + i;
+    const auto before = hn::Load(df, depth);
+    lanes = hn::And(lanes, hn::Lt(low, before));
+    if (kSkip && hn::AllFalse(df, lanes)) return;
+    const auto high = kExactDepth ? RoundDepths(z + slot.z_error, slot.z_step + i) : low;
+    const auto known = hn::And(lanes, hn::Eq(low, high));
+    hn::Store(hn::IfThenElse(known, low, before), df, depth);
+    if constexpr (kWinner) {
+      const CellUint du;
+      hn::BlendedStore(hn::Set(du, job_.first_ordinal + slot.position), hn::RebindMask(du, known), du,
+                       canvas_.winner + offset + i);
+    }
+    const auto unknown = hn::AndNot(known, lanes);
+    if (HWY_UNLIKELY(!hn::AllFalse(df, unknown)))
+      SlowLanes(slot, Bits(df, unknown) << i, area.CellX(cell), area.CellY(cell));
+  }
+
+  // The same where fragments count, may be clipped or clamped, have no known bound, or more than depth says who is
+  // seen.
+  HWY_NOINLINE void SpecialFragments(const Slot& slot, hn::Mask<CellInt> covered, hn::Vec<CellFloat> low, int cell_x,
+                                     int cell_y, std::size_t offset, std::size_t i, double z) {
+    [[maybe_unused]] const CellInt d;
+    const CellFloat df;
+    if (slot.slow_depth) {
+      SlowLanes(slot, Bits(d, covered) << i, cell_x, cell_y);
+      return;
+    }
+    auto lanes = hn::RebindMask(df, covered);
+    auto high = RoundDepths(z + slot.z_error, slot.z_step + i);
+    if (snaps_) {
+      const auto least = hn::Set(df, slot.z_least), most = hn::Set(df, slot.z_most);
+      low = hn::Min(hn::Max(low, least), most);
+      high = hn::Min(hn::Max(high, least), most);
+    }
+    if (slot.clip) {
+      const auto least = hn::Set(df, near_), most = hn::Set(df, far_);
+      if (clamps) {
+        low = hn::Min(hn::Max(low, least), most);
+        high = hn::Min(hn::Max(high, least), most);
+      } else {
+        const auto out = hn::Or(hn::Lt(high, least), hn::Gt(low, most));
+        const auto in = hn::And(hn::Gt(low, least), hn::Lt(high, most));
+        lanes = hn::AndNot(out, lanes);
+        SlowLanes(slot, Bits(df, hn::AndNot(in, lanes)) << i, cell_x, cell_y);
+        lanes = hn::And(lanes, in);
+      }
+    }
+    const auto unknown = hn::AndNot(hn::Eq(low, high), lanes);
+    SlowLanes(slot, Bits(df, unknown) << i, cell_x, cell_y);
+    lanes = hn::AndNot(unknown, lanes);
+    if constexpr (kCount) Count(hn::RebindMask(d, lanes), offset + i);
+    if (!ordered_) {
+      lanes = hn::And(lanes, hn::Lt(low, hn::Load(df, canvas_.depth + offset + i)));
+      hn::BlendedStore(low, lanes, df, canvas_.depth + offset + i);
+      if constexpr (kWinner) {
+        const CellUint du;
+        hn::BlendedStore(hn::Set(du, job_.first_ordinal + slot.position), hn::RebindMask(du, lanes), du,
+                         canvas_.winner + offset + i);
+      }
+      return;
+    }
+    alignas(64) float depths[kCellLanes];
+    hn::Store(low, df, depths);
+    for (std::uint32_t bits = Bits(df, lanes); bits != 0; bits &= bits - 1) {
+      const auto k = static_cast<std::size_t>(__builtin_ctz(bits));
+      if (Passes(slot.position, depths[k], offset + i + k)) Store(slot.position, depths[k], offset + i + k);
+    }
+  }
+
+  HWY_NOINLINE void SlowLanes(const Slot& slot, std::uint32_t bits, int cell_x, int cell_y) {
+    for (; bits != 0; bits &= bits - 1) {
+      const int k = __builtin_ctz(bits);
+      SlowFragment(slot, cell_x + (k & 3), cell_y + (k >> 2));
+    }
+  }
+
+  HWY_INLINE void Count(hn::Mask<CellInt> covered, std::size_t at) {
+    const CellInt d;
+    const CellUint du;
+    if (HWY_UNLIKELY(canvas_.masks != nullptr)) {
+      Mark(Bits(d, covered), at);
+      return;
+    }
+    const auto one = hn::BitCast(du, hn::VecFromMask(d, covered));  // -1 where covered
+    hn::Store(hn::Sub(hn::Load(du, canvas_.count + at), one), du, canvas_.count + at);
+  }
+  void CountOne(std::size_t at) {
+    if (canvas_.masks != nullptr) {
+      Mark(1, at);
+    } else {
+      ++canvas_.count[at];
+    }
+  }
+  void Mark(std::uint64_t lanes, std::size_t at) {
+    if (lanes == 0) return;
+    std::uint64_t& mask = canvas_.masks[at >> 6];
+    if (mask == 0) touched_[touched_size_++] = static_cast<std::uint32_t>(at >> 6);
+    mask |= lanes << (at & 63);
+  }
+
+  HWY_INLINE hn::Mask<CellInt> LanesInBox(const Slot& slot, int cell_x, int cell_y, std::size_t i) const {
+    const CellInt d;
+    const auto x = hn::Add(hn::Set(d, cell_x), hn::Load(d, kColumn + i));
+    const auto y = hn::Add(hn::Set(d, cell_y), hn::Load(d, kRow + i));
+    return hn::And(hn::And(hn::Lt(hn::Set(d, slot.first_x - 1), x), hn::Lt(x, hn::Set(d, slot.last_x + 1))),
+                   hn::And(hn::Lt(hn::Set(d, slot.first_y - 1), y), hn::Lt(y, hn::Set(d, slot.last_y + 1))));
+  }
+
+  // Hands the blocks that the triangle has touched to the visitor.
+  void Emit(std::uint32_t position) {
+    constexpr std::size_t kAtOnce = 64;
+    CoverageBlock blocks[kAtOnce];
+    std::size_t n = 0;
+    const auto columns = static_cast<std::uint32_t>(canvas_.blocks_x());
+    for (std::size_t i = 0; i < touched_size_; ++i) {
+      const std::uint32_t block = touched_[i];
+      blocks[n++] = {job_.number,
+                     position,
+                     static_cast<int>(block % columns) * 8,
+                     static_cast<int>(block / columns) * 8,
+                     job_.sample_number,
+                     RowByRow(canvas_.masks[block])};
+      canvas_.masks[block] = 0;
+      if (n == kAtOnce || i + 1 == touched_size_) {
+        canvas_.visitor->visit(canvas_.visitor->context, {blocks, n});
+        n = 0;
+      }
+    }
+    touched_size_ = 0;
+  }
+
+  bool looks_at_lanes = false, with_identifiers = false, clamps = false;
+
+ private:
+  SamplePosition Position(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
+
+  // The triangle at `position` for exact arithmetic.
+  Triangle& Exact(std::uint32_t position) {
+    if (exact_position_ != position) {
+      Statistics unused;
+      exact_.set_up(VertexOf(draw_, position, 0), VertexOf(draw_, position, 1), VertexOf(draw_, position, 2), unused);
+      exact_position_ = position;
+    }
+    return exact_;
+  }
+
+  void Store(std::uint32_t position, float z, std::size_t offset) {
+    if (kWinner) canvas_.winner[offset] = job_.first_ordinal + position;
+    if (draw_.depth_write) canvas_.depth[offset] = z;
+  }
+
+  // V1, V3 and M5: nearer, or as near as a triangle of this draw with a larger identifier; with depth write off,
+  // nearer, and among the triangles of this draw the largest identifier. Uncertain samples come late: order is no help.
+  bool Passes(std::uint32_t position, float z, std::size_t offset) const {
+    const float stored = canvas_.depth[offset];
+    if (!kWinner) return z < stored;
+    const std::uint32_t winner = canvas_.winner[offset], other = winner - job_.first_ordinal;
+    const bool of_this_draw = winner != kNoTriangle && winner >= job_.first_ordinal;
+    if (!draw_.depth_write) return z < stored && (!of_this_draw || !Before(position, other));
+    if (z < stored) return true;
+    return z == stored && of_this_draw && Before(position, other);
+  }
+  // Is the triangle's identifier the smaller one?
+  bool Before(std::uint32_t position, std::uint32_t other) const {
+    if (SUREFILL_PLANT(merge_order)) return position < other;
+    return with_identifiers ? draw_.identifiers[position] < draw_.identifiers[other] : position < other;
+  }
+
+  // The samples of a block as the canvas has them, cell by cell, in rows of eight.
+  static std::uint64_t RowByRow(std::uint64_t cells) {
+    // The rows of two cells, of four bits each, become bytes; one goes to the low halves, the other to the high ones.
+    const auto spread = [](std::uint64_t v) {
+      v = (v | v << 8) & 0x00FF00FF;
+      return (v | v << 4) & 0x0F0F0F0F;
+    };
+    const std::uint64_t upper = spread(cells & 0xFFFF) | spread(cells >> 16 & 0xFFFF) << 4;
+    const std::uint64_t lower = spread(cells >> 32 & 0xFFFF) | spread(cells >> 48) << 4;
+    return upper | lower << 32;
+  }
+
+  const DrawJob& job_;
+  const Draw& draw_;
+  const Canvas canvas_;
+  Statistics& statistics_;
+  bool snaps_ = false, ordered_ = false;
+  float near_ = 0, far_ = 1;
+  std::uint32_t* touched_;  // blocks whose mask is not 0
+  std::size_t touched_size_ = 0;
+  Triangle exact_;
+  std::uint32_t exact_position_ = kNoTriangle;
+  SnappedTriangle snapped_;
+  std::uint32_t snapped_position_ = kNoTriangle;
+};
+
+}  // namespace surefill::fast::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // SUREFILL_SRC_FRAGMENT_INL_HPP

@@ -242,6 +242,8 @@ const char* status_text(Status status) noexcept {
       return "the boxes or rectangles of the query are null or hold a number that is not finite";
     case Status::query_answers:
       return "the answers of the query are null or not one for each box";
+    case Status::visitor:
+      return "the visitor's function is null";
   }
   return "unknown status";
 }

@@ -23,7 +23,7 @@ template <bool kDepth, bool kWinner, bool kCount>
 class Rasterizer {
  public:
   Rasterizer(const DrawJob& job, const Canvas& canvas, const BandSet& bands, Statistics& statistics)
-      : job_(job), canvas_(canvas), bands_(bands), writer_(job, canvas, statistics) {
+      : job_(job), canvas_(canvas), bands_(bands), writer_(job, canvas, bands, statistics) {
     for (int odd = 0; odd < 4; ++odd) {  // whether an area begins at an odd column of cells, and at an odd row
       for (int n = 0; n < 16; ++n) {
         const int x = (odd & 1) * 4 + (n & 3) * 4, y = (odd >> 1) * 4 + (n >> 2) * 4;
@@ -52,11 +52,13 @@ class Rasterizer {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
       if (!bands_.all && !OwnsOne(lane)) continue;
       if ((batch_->small >> lane & 1) != 0) {
+        Touch(lane);
         Small(lane);
         continue;
       }
       DrawCells(1);  // the small ones before it
       if ((batch_->medium >> lane & 1) != 0) {
+        Touch(lane);
         Medium(lane);
       } else {
         Large(lane);
@@ -78,6 +80,27 @@ class Rasterizer {
     }
   }
 
+  // The tiles of the lane's box get values, if they have none.
+  HWY_INLINE void Touch(std::uint32_t lane) const {
+    const int x0 = batch_->first_x[lane], x1 = batch_->last_x[lane];
+    const int y0 = batch_->first_y[lane], y1 = batch_->last_y[lane];
+    if (((x0 ^ x1) | (y0 ^ y1)) >> kTileLog2 == 0) {
+      TouchTile(canvas_.tile_of(x0, y0));
+    } else {
+      TouchBox(x0, x1, y0, y1);
+    }
+  }
+  HWY_INLINE void TouchTile(std::size_t tile) const {
+    if (HWY_UNLIKELY(canvas_.untouched[tile] != 0)) canvas_.touch(canvas_.renderer, tile);
+  }
+  HWY_NOINLINE void TouchBox(int x0, int x1, int y0, int y1) const {
+    for (int ty = y0 >> kTileLog2; ty <= y1 >> kTileLog2; ++ty) {
+      if (!bands_.owns(ty)) continue;
+      for (int tx = x0 >> kTileLog2; tx <= x1 >> kTileLog2; ++tx)
+        TouchTile(canvas_.tile_of(tx * kTileSize, ty * kTileSize));
+    }
+  }
+
   // A triangle that Grid clips: the fan of its polygon, or, where the fan has both signs, sample by sample.
   HWY_NOINLINE void Clipped(std::uint32_t position) {
     SnappedTriangle& snapped = writer_.Snapped(position);
@@ -91,6 +114,7 @@ class Rasterizer {
     }
     const double least = std::min(job_.sample.x, job_.sample.y), most = std::max(job_.sample.x, job_.sample.y);
     const PixelBox box = snapped.box(job_.region, least, most);
+    if (!box.empty()) TouchBox(box.x0, box.x1 - 1, box.y0, box.y1 - 1);
     for (int y = box.y0; y < box.y1; ++y) {
       if (!bands_.owns(y >> kTileLog2)) continue;
       for (int x = box.x0; x < box.x1; ++x) {
@@ -343,6 +367,7 @@ class Rasterizer {
             at[i] = static_cast<std::int32_t>(std::nearbyint(std::clamp(e[i][n], -kEdgeLimit, kEdgeLimit))) - kBound;
           }
           const int x0 = tx + static_cast<int>(n) * kTileSize;
+          TouchTile(canvas_.tile_of(x0, ty));
           if (Tile(slot, lane, at, x0, ty)) UpdateTileFar(x0, ty);
         }
       }

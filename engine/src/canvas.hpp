@@ -46,10 +46,15 @@ struct Canvas {
   float* tile_far = nullptr;        // no depth in the tile is larger
   std::uint32_t* winner = nullptr;  // null if visibility is not wanted. Meaningful where the depth was written
   std::uint32_t* count = nullptr;   // null if counts are not wanted
-  // For a visitor, instead of counts: 64 bits a block, the samples of the triangle at hand; and room for the list of
-  // blocks that have some.
+  // A tile that nothing has been drawn to is but a flag, and its samples have no values: touch() gives it the empty
+  // image's, or the initial depth's. A tile is touched before a sample of it is looked at.
+  std::uint8_t* untouched = nullptr;
+  void (*touch)(const void* renderer, std::size_t tile) = nullptr;
+  const void* renderer = nullptr;
+  // For a visitor, instead of counts: 64 bits a block, the samples of the triangle at hand; and for each thread room
+  // for the list of blocks that have some.
   std::uint64_t* masks = nullptr;
-  std::uint32_t* touched = nullptr;
+  std::uint32_t* marked = nullptr;
   const CoverageVisitor* visitor = nullptr;
   // Offsets of the first sample of a cell: the sum of that of its column and that of its row.
   const std::uint32_t *column = nullptr, *row = nullptr;
@@ -138,8 +143,9 @@ struct ShadeJob {
 struct BandSet {
   std::uint64_t owned[kMaxTargetSize / kTileSize / 64] = {};
   bool all = true;
+  int number = 0;  // of the thread
 
-  BandSet(int set, int sets) : all(sets == 1) {
+  BandSet(int set, int sets) : all(sets == 1), number(set) {
     for (int band = set; band < kMaxTargetSize / kTileSize; band += sets)
       owned[band >> 6] |= std::uint64_t{1} << (band & 63);
   }

@@ -25,8 +25,10 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <bool kDepth, bool kWinner, bool kCount>
 class FragmentWriter {
  public:
-  FragmentWriter(const DrawJob& job, const Canvas& canvas, Statistics& statistics)
-      : job_(job), draw_(*job.draw), canvas_(canvas), statistics_(statistics), touched_(canvas.touched) {
+  FragmentWriter(const DrawJob& job, const Canvas& canvas, const BandSet& bands, Statistics& statistics)
+      : job_(job), draw_(*job.draw), canvas_(canvas), statistics_(statistics) {
+    if (canvas.masks != nullptr) marked_ = canvas.marked + static_cast<std::size_t>(bands.number) * canvas.blocks();
+
     // Else what lies beyond the target is drawn where nobody looks.
     if (draw_.scissor || canvas.masks != nullptr) {
       const PixelBox& r = job.region;
@@ -197,7 +199,7 @@ class FragmentWriter {
   void Mark(std::uint64_t lanes, std::size_t at) {
     if (lanes == 0) return;
     std::uint64_t& mask = canvas_.masks[at >> 6];
-    if (mask == 0) touched_[touched_size_++] = static_cast<std::uint32_t>(at >> 6);
+    if (mask == 0) marked_[marked_size_++] = static_cast<std::uint32_t>(at >> 6);
     mask |= lanes << (at & 63);
   }
 
@@ -209,14 +211,14 @@ class FragmentWriter {
                    hn::And(hn::Lt(hn::Set(d, slot.first_y - 1), y), hn::Lt(y, hn::Set(d, slot.last_y + 1))));
   }
 
-  // Hands the blocks that the triangle has touched to the visitor.
+  // Hands the blocks that the triangle has marked to the visitor.
   void Emit(std::uint32_t position) {
     constexpr std::size_t kAtOnce = 64;
     CoverageBlock blocks[kAtOnce];
     std::size_t n = 0;
     const auto columns = static_cast<std::uint32_t>(canvas_.blocks_x());
-    for (std::size_t i = 0; i < touched_size_; ++i) {
-      const std::uint32_t block = touched_[i];
+    for (std::size_t i = 0; i < marked_size_; ++i) {
+      const std::uint32_t block = marked_[i];
       blocks[n++] = {job_.number,
                      position,
                      static_cast<int>(block % columns) * 8,
@@ -224,12 +226,12 @@ class FragmentWriter {
                      job_.sample_number,
                      RowByRow(canvas_.masks[block])};
       canvas_.masks[block] = 0;
-      if (n == kAtOnce || i + 1 == touched_size_) {
+      if (n == kAtOnce || i + 1 == marked_size_) {
         canvas_.visitor->visit(canvas_.visitor->context, {blocks, n});
         n = 0;
       }
     }
-    touched_size_ = 0;
+    marked_size_ = 0;
   }
 
   bool looks_at_lanes = false, with_identifiers = false, clamps = false;
@@ -287,8 +289,8 @@ class FragmentWriter {
   Statistics& statistics_;
   bool snaps_ = false, ordered_ = false;
   float near_ = 0, far_ = 1;
-  std::uint32_t* touched_;  // blocks whose mask is not 0
-  std::size_t touched_size_ = 0;
+  std::uint32_t* marked_ = nullptr;  // blocks whose mask is not 0
+  std::size_t marked_size_ = 0;
   Triangle exact_;
   std::uint32_t exact_position_ = kNoTriangle;
   SnappedTriangle snapped_;

@@ -85,14 +85,42 @@ class DrawRenderer {
         shift_(tie_shift(draw.fill_rule)) {}
 
   void rasterize() {
-    PixelBox limits{0, 0, target_.width, target_.height};
-    if (draw_.scissor) {
-      limits = {std::max(limits.x0, draw_.scissor->x0), std::max(limits.y0, draw_.scissor->y0),
-                std::min(limits.x1, draw_.scissor->x1), std::min(limits.y1, draw_.scissor->y1)};
-      if (limits.empty()) limits = {};
-    }
+    const PixelBox limits = region();
     const std::size_t triangles = draw_.indices.size() / 3;
-    for (std::size_t t = 0; t < triangles; ++t) rasterize(static_cast<std::uint32_t>(t), limits);
+    for (std::size_t t = 0; t < triangles; ++t) {
+      const auto position = static_cast<std::uint32_t>(t);
+      const PixelBox box = prepare(position, limits);
+      for (int y = box.y0; y < box.y1; ++y) {
+        for (int x = box.x0; x < box.x1; ++x) {
+          if (draw_.conservative == Conservative::none) {
+            rasterize_pixel(position, x, y);
+          } else {
+            rasterize_square(x, y);
+          }
+        }
+      }
+    }
+  }
+
+  // The covered samples of number n, triangle by triangle, block by block.
+  void visit(std::uint32_t number, int n, const CoverageVisitor& visitor) {
+    const PixelBox limits = region();
+    const std::size_t triangles = draw_.indices.size() / 3;
+    for (std::size_t t = 0; t < triangles; ++t) {
+      const auto position = static_cast<std::uint32_t>(t);
+      const PixelBox box = prepare(position, limits);
+      for (int by = box.y0 & ~7; by < box.y1; by += 8) {
+        for (int bx = box.x0 & ~7; bx < box.x1; bx += 8) {
+          CoverageBlock block{number, position, bx, by, n, 0};
+          for (int y = std::max(by, box.y0); y < std::min(by + 8, box.y1); ++y) {
+            for (int x = std::max(bx, box.x0); x < std::min(bx + 8, box.x1); ++x) {
+              if (counts(x, y, n)) block.mask |= std::uint64_t{1} << (8 * (y - by) + (x - bx));
+            }
+          }
+          if (block.mask != 0) visitor.visit(visitor.context, {&block, 1});
+        }
+      }
+    }
   }
 
   // Writes index, barycentrics and attributes of every sample whose winner belongs to this draw.
@@ -125,37 +153,62 @@ class DrawRenderer {
     return draw_.vertices[draw_.indices[std::size_t{3} * position + i]];
   }
 
-  void rasterize(std::uint32_t position, const PixelBox& limits) {
+  // Target and scissor.
+  PixelBox region() const {
+    PixelBox limits{0, 0, target_.width, target_.height};
+    if (draw_.scissor) {
+      limits = {std::max(limits.x0, draw_.scissor->x0), std::max(limits.y0, draw_.scissor->y0),
+                std::min(limits.x1, draw_.scissor->x1), std::min(limits.y1, draw_.scissor->y1)};
+      if (limits.empty()) limits = {};
+    }
+    return limits;
+  }
+
+  // Sets up a triangle and counts it. Returns the pixels that it may cover; none if it is not to be drawn.
+  PixelBox prepare(std::uint32_t position, const PixelBox& limits) {
+    constexpr PixelBox kNone{0, 0, 0, 0};
     ++statistics_.triangles;
     for (std::size_t i = 0; i < 3; ++i) {
       if (!all_finite(draw_, draw_.indices[std::size_t{3} * position + i])) {
         ++statistics_.dropped;
-        return;
+        return kNone;
       }
     }
     if (!set_up(position, statistics_)) {
       ++statistics_.degenerate;
-      return;
+      return kNone;
     }
     if (!draw_.grid && culls(triangle_.determinant())) {  // under Grid, facing is a matter of the sample (G1)
       ++statistics_.culled;
-      return;
+      return kNone;
     }
-    const PixelBox box = limits.empty() ? PixelBox{0, 0, 0, 0} : box_within(position, limits);
+    const PixelBox box = limits.empty() ? kNone : box_within(position, limits);
     if (box.empty()) {
       ++statistics_.outside;
-      return;
+      return kNone;
     }
     ++statistics_.rasterized;
-    for (int y = box.y0; y < box.y1; ++y) {
-      for (int x = box.x0; x < box.x1; ++x) {
-        if (draw_.conservative == Conservative::none) {
-          rasterize_pixel(position, x, y);
-        } else {
-          rasterize_square(x, y);
-        }
-      }
+    return box;
+  }
+
+  // Is sample n of the pixel counted (M2)?
+  bool counts(int x, int y, int n) {
+    if (draw_.conservative != Conservative::none) return square_counts(x, y);
+    const SamplePosition p{x + pattern_.offset[n].x, y + pattern_.offset[n].y};
+    float z;
+    if (draw_.grid) {
+      const int facing = snapped_.winding(p, shift_);
+      return facing != 0 && !culls(facing) &&
+             (draw_.depth_mode != DepthMode::clip || snapped_.depth(p, draw_.depth_mode, &z, statistics_));
     }
+    return triangle_.covers(p, shift_, statistics_) &&
+           (draw_.depth_mode != DepthMode::clip || triangle_.depth(p, draw_.depth_mode, &z, statistics_));
+  }
+
+  // M4.
+  bool square_counts(int x, int y) {
+    const PixelSquare square(triangle_, x, y, statistics_);
+    return draw_.conservative == Conservative::over ? square.touched() : square.inside();
   }
 
   // False if the triangle covers nothing by C1 or, under Grid, by G1.
@@ -198,10 +251,7 @@ class DrawRenderer {
 
   // M4. Such frames have counts alone and one sample a pixel.
   void rasterize_square(int x, int y) {
-    const PixelSquare square(triangle_, x, y, statistics_);
-    if (draw_.conservative == Conservative::over ? square.touched() : square.inside()) {
-      if (!target_.count.empty()) ++target_.count[first_sample(x, y)];
-    }
+    if (!target_.count.empty() && square_counts(x, y)) ++target_.count[first_sample(x, y)];
   }
 
   // A covered sample: depth clip, count, depth test.
@@ -341,6 +391,18 @@ Status render(const Target& target, std::span<const Draw> draws, Statistics& sta
     DrawRenderer renderer(target, draw, depth, winner.get(), statistics);
     renderer.rasterize();
     if (winner != nullptr && (wanted.shading || !target.index.empty())) renderer.shade(wanted.shading);
+  }
+  return Status::ok;
+}
+
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      Statistics& statistics) noexcept {
+  Statistics not_counted;
+  for (int n = 0; n < target.samples; ++n) {
+    for (std::size_t d = 0; d < draws.size(); ++d) {
+      DrawRenderer(target, draws[d], nullptr, nullptr, n == 0 ? statistics : not_counted)
+          .visit(static_cast<std::uint32_t>(d), n, visitor);
+    }
   }
   return Status::ok;
 }

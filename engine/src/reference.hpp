@@ -15,6 +15,10 @@ namespace surefill::reference {
 // ok or out_of_memory.
 Status render(const Target& target, std::span<const Draw> draws, Statistics& statistics) noexcept;
 
+// As surefill::visit_coverage, in the same way. Returns ok.
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      Statistics& statistics) noexcept;
+
 }  // namespace surefill::reference
 
 #endif  // SUREFILL_SRC_REFERENCE_HPP

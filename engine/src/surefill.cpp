@@ -21,12 +21,29 @@ constexpr SampleLocation kLocations16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3
 Status draw(const Target& target, std::span<const Draw> draws, [[maybe_unused]] const Options& options,
             Statistics& statistics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
-  if (options.path == Path::automatic && fast::supports(target, draws)) {
-    return fast::render(target, draws, options.threads, statistics);
+  if (options.path == Path::automatic && fast::supports(draws)) {
+    return fast::render(target, draws, options, statistics);
   }
 #endif
   statistics.path = "reference";
   return reference::render(target, draws, statistics);
+}
+
+Status visit(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+             [[maybe_unused]] const Options& options, Statistics& statistics) {
+#if !defined(SUREFILL_REFERENCE_ONLY)
+  if (options.path == Path::automatic && fast::supports(draws)) {
+    return fast::visit_coverage(target, draws, visitor, options, statistics);
+  }
+#endif
+  statistics.path = "reference";
+  return reference::visit_coverage(target, draws, visitor, statistics);
+}
+
+Status check(const Options& options) {
+  if (options.threads < 1 || options.threads > kMaxThreads) return Status::options_threads;
+  if (options.path > Path::reference) return Status::options_path;
+  return Status::ok;
 }
 
 }  // namespace
@@ -49,12 +66,25 @@ SampleLocation sample_location(int samples, int n) noexcept {
 
 Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
               const Options& options) noexcept {
-  if (options.threads < 1 || options.threads > kMaxThreads) return Status::options_threads;
-  if (options.path > Path::reference) return Status::options_path;
+  if (const Status status = check(options); status != Status::ok) return status;
   if (const Status status = validate(target, draws); status != Status::ok) return status;
   const FloatEnvironment environment;
   Statistics own;
   const Status status = draw(target, draws, options, own);
+  if (statistics != nullptr) *statistics = own;
+  return status;
+}
+
+Status visit_coverage(int width, int height, int samples, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      Statistics* statistics, const Options& options) noexcept {
+  Target target;
+  target.width = width, target.height = height, target.samples = samples;
+  if (const Status status = check(options); status != Status::ok) return status;
+  if (const Status status = validate(target, draws); status != Status::ok) return status;
+  if (visitor.visit == nullptr) return Status::visitor;
+  const FloatEnvironment environment;
+  Statistics own;
+  const Status status = visit(target, draws, visitor, options, own);
   if (statistics != nullptr) *statistics = own;
   return status;
 }

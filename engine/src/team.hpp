@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The threads of one call: they start with it, wait between its phases and end with it.
+// The threads of one call: they start with it, wait between its phases and end with it; or the caller's.
 #ifndef SUREFILL_SRC_TEAM_HPP
 #define SUREFILL_SRC_TEAM_HPP
 
@@ -18,7 +18,8 @@ namespace surefill::fast {
 class Team {
  public:
   // If fewer threads can be started, fewer do the work.
-  explicit Team(int threads) {
+  Team(int threads, const Executor& executor) : executor_(executor) {
+    if (executor_.run != nullptr) return;
     for (; others_ < std::min(threads, kMaxThreads) - 1; ++others_) {
       try {
         threads_[others_] = std::thread([this] { serve(); });
@@ -38,11 +39,19 @@ class Team {
   // work(item) for item = 0 .. items - 1, in any order, on all threads, this one among them.
   template <typename Work>
   void run(std::size_t items, const Work& work) {
+    if (executor_.run != nullptr && items > 1) {
+      const auto task = [](void* argument, std::size_t item) {
+        const FloatEnvironment environment;
+        call(*static_cast<const Work*>(argument), item);
+      };
+      executor_.run(executor_.context, items, task, const_cast<Work*>(&work));
+      return;
+    }
     if (others_ == 0 || items < 2) {
       for (std::size_t item = 0; item < items; ++item) work(item);
       return;
     }
-    call_ = [](const void* data, std::size_t item) { (*static_cast<const Work*>(data))(item); };
+    call_ = [](const void* data, std::size_t item) { call(*static_cast<const Work*>(data), item); };
     data_ = &work;
     items_ = items;
     next_.store(0, std::memory_order_relaxed);
@@ -55,6 +64,12 @@ class Team {
   }
 
  private:
+  // Not inlined: it runs after the floating-point state is set.
+  template <typename Work>
+  [[gnu::noinline]] static void call(const Work& work, std::size_t item) {
+    work(item);
+  }
+
   void release() {
     phase_.fetch_add(1, std::memory_order_release);
     phase_.notify_all();
@@ -87,6 +102,7 @@ class Team {
     return false;
   }
 
+  const Executor executor_;
   std::thread threads_[kMaxThreads];
   int others_ = 0;
   void (*call_)(const void*, std::size_t) = nullptr;

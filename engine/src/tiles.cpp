@@ -14,6 +14,7 @@
 #endif
 
 #include "canvas.hpp"
+#include "culling.hpp"
 #include "team.hpp"
 
 namespace surefill::fast {
@@ -54,11 +55,13 @@ class Buffer {
 
 class Renderer {
  public:
-  Renderer(const Target& target, std::span<const Draw> draws, int threads)
+  // The visitor may be null.
+  Renderer(const Target& target, std::span<const Draw> draws, const CoverageVisitor* visitor, const Options& options)
       : target_(target),
         draws_(draws),
-        threads_(std::min(threads, (target.height + kTileSize - 1) >> kTileLog2)),  // a band is drawn by one
-        team_(threads_) {
+        visitor_(visitor),
+        threads_(std::min(options.threads, (target.height + kTileSize - 1) >> kTileLog2)),  // a band is drawn by one
+        team_(threads_, options.executor) {
     for (const AttributeTarget& attribute : target.attributes) attributes_ |= !attribute.values.empty();
     shading_ = attributes_ || !target.barycentrics.empty();
     visibility_ = shading_ || !target.index.empty();
@@ -67,7 +70,8 @@ class Renderer {
       // Its counts depend on depth; or depth alone does not say what is empty.
       if (draw.depth_mode == DepthMode::clip || (!draw.depth_write && depth_)) visibility_ = depth_ = true;
     }
-    if (depth_ && !target.count.empty()) visibility_ = true;
+    counts_ = !target.count.empty() || visitor != nullptr;
+    if (depth_ && counts_) visibility_ = true;
     greater_ = target.depth_test == DepthTest::greater;
     canvas_.tiles_x = (target.width + kTileSize - 1) >> kTileLog2;
     canvas_.tiles_y = (target.height + kTileSize - 1) >> kTileLog2;
@@ -109,7 +113,14 @@ class Renderer {
          row_.allocate(16 * static_cast<std::size_t>(canvas_.tiles_y));
     if (ok && visibility_) ok = winner_.allocate(samples);
     if (ok && !target_.count.empty()) ok = count_.allocate(samples);
+    if (ok && visitor_ != nullptr)
+      ok = masks_.allocate(blocks) && marked_.allocate(blocks * static_cast<std::size_t>(threads_));
+    ok = ok && untouched_.allocate(blocks / 64);
     if (!ok) return false;
+    if (visitor_ != nullptr) std::fill(masks_.data(), masks_.data() + blocks, std::uint64_t{0});
+    canvas_.masks = masks_.data(), canvas_.marked = marked_.data(), canvas_.visitor = visitor_;
+    canvas_.untouched = untouched_.data(), canvas_.renderer = this;
+    canvas_.touch = [](const void* renderer, std::size_t tile) { static_cast<const Renderer*>(renderer)->touch(tile); };
     canvas_.depth = depth_buffer_.data(), canvas_.block_far = block_far_.data(), canvas_.tile_far = tile_far_.data();
     canvas_.winner = winner_.data(), canvas_.count = count_.data();
     for (int c = 0; c < 2 * canvas_.blocks_x(); ++c)
@@ -131,6 +142,7 @@ class Renderer {
     sum.culled += part.culled;
     sum.outside += part.outside;
     sum.rasterized += part.rasterized;
+    sum.skipped_draws += part.skipped_draws;
   }
   static void add_rungs(Statistics& sum, const Statistics& part) {
     sum.signs_by_filter += part.signs_by_filter;
@@ -171,6 +183,12 @@ class Renderer {
     Batch* const batches = &batches_[piece * kChunkBatches];
     for (std::size_t d = 0; d < draws_.size(); ++d) {
       const auto triangles = static_cast<std::uint32_t>(draws_[d].indices.size() / 3);
+      if (skips(jobs_[d], bands)) {
+        ++counted.skipped_draws;
+        counted.triangles += triangles;
+        counted.outside += triangles;
+        continue;
+      }
       for (std::uint32_t first = 0; first < triangles;) {
         std::size_t n = 0;
         for (; n < kChunkBatches && first < triangles; ++n) {
@@ -181,6 +199,12 @@ class Renderer {
         kernels_.rasterize(jobs_[d], {batches, n}, canvas_, bands, statistics_[piece]);
       }
     }
+  }
+
+  bool skips(const DrawJob& job, const BandSet& bands) const {
+    const auto& box = job.draw->culling_box;
+    if (!box) return false;
+    return is_outside(*box, *job.draw, job.region) || (depth_ && !counts_ && is_hidden(*box, job, canvas_, bands));
   }
 
   // ---- the canvas, a band at a time
@@ -198,54 +222,93 @@ class Renderer {
   void clear(int band) {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     const std::size_t tiles = static_cast<std::size_t>(canvas_.tiles_x);
-    const std::size_t begin = static_cast<std::size_t>(band) * tiles * 4096, end = begin + tiles * 4096;
-    if (canvas_.count != nullptr) std::fill(canvas_.count + begin, canvas_.count + end, 0u);
+    const std::size_t begin = static_cast<std::size_t>(band) * tiles, end = begin + tiles;
+    std::fill(canvas_.untouched + begin, canvas_.untouched + end, std::uint8_t{1});
     if (!depth_) return;
-    if (canvas_.winner != nullptr) std::fill(canvas_.winner + begin, canvas_.winner + end, kNoTriangle);
-    std::fill(canvas_.block_far + begin / 64, canvas_.block_far + end / 64, kInfinity);
-    std::fill(canvas_.tile_far + begin / 4096, canvas_.tile_far + end / 4096, kInfinity);
-    std::fill(canvas_.depth + begin, canvas_.depth + end, kInfinity);
-    const int y1 = (band + 1) * kTileSize, x1 = canvas_.tiles_x * kTileSize;
-    for (int y = band * kTileSize; y < y1; ++y) {
-      for (int x = y < target_.height ? target_.width : 0; x < x1; ++x)
-        canvas_.depth[canvas_.offset_of(x, y)] = -kInfinity;
-      if (target_.initial_depth.empty() || y >= target_.height) continue;
-      for (int x = 0; x < target_.width; ++x) {
-        canvas_.depth[canvas_.offset_of(x, y)] = kept_depth(target_.initial_depth[sample_index(x, y)]);
+    std::fill(canvas_.block_far + begin * 64, canvas_.block_far + end * 64, kInfinity);
+    std::fill(canvas_.tile_far + begin, canvas_.tile_far + end, kInfinity);
+  }
+
+  // The empty image, in one tile.
+  void touch(std::size_t tile) const {
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    canvas_.untouched[tile] = 0;
+    const auto tiles_x = static_cast<std::size_t>(canvas_.tiles_x);
+    const int x0 = static_cast<int>(tile % tiles_x) * kTileSize, y0 = static_cast<int>(tile / tiles_x) * kTileSize;
+    for (int y = y0; y < y0 + kTileSize; y += 8) {  // a row of blocks
+      const std::size_t begin = canvas_.offset_of(x0, y), end = begin + 8 * kTileSize;
+      if (canvas_.count != nullptr) std::fill(canvas_.count + begin, canvas_.count + end, 0u);
+      if (canvas_.winner != nullptr) std::fill(canvas_.winner + begin, canvas_.winner + end, kNoTriangle);
+      if (depth_) std::fill(canvas_.depth + begin, canvas_.depth + end, kInfinity);
+    }
+    const bool initial = !target_.initial_depth.empty();
+    if (!depth_ || (!initial && x0 + kTileSize <= target_.width && y0 + kTileSize <= target_.height)) return;
+    for (int y = y0; y < y0 + kTileSize; ++y) {
+      for (int x = x0; x < x0 + kTileSize; ++x) {
+        float& depth = canvas_.depth[canvas_.offset_of(x, y)];
+        if (x >= target_.width || y >= target_.height) {
+          depth = -kInfinity;
+        } else if (initial) {
+          depth = kept_depth(target_.initial_depth[sample_index(x, y)]);
+        }
       }
     }
   }
 
   void store(int band) {
-    for (int y = band * kTileSize; y < std::min((band + 1) * kTileSize, target_.height); ++y) {
-      if (!target_.count.empty()) store_count(y);
-      if (!target_.depth.empty()) store_depth(y);
-      if (!target_.index.empty()) store_index(y);
+    const int y1 = std::min((band + 1) * kTileSize, target_.height);
+    for (int x = 0; x < target_.width; x += kTileSize) {
+      const std::size_t tile = canvas_.tile_of(x, band * kTileSize);
+      const Columns columns{x, std::min(x + kTileSize, target_.width)};
+      if (canvas_.untouched[tile] != 0 && shading_) touch(tile);
+      for (int y = band * kTileSize; y < y1; ++y) {
+        if (canvas_.untouched[tile] != 0) {
+          store_empty(y, columns);
+          continue;
+        }
+        if (!target_.count.empty()) store_count(y, columns);
+        if (!target_.depth.empty()) store_depth(y, columns);
+        if (!target_.index.empty()) store_index(y, columns);
+      }
     }
     if (!shading_) return;
     const ShadeJob job{&target_, {jobs_.get(), draws_.size()}, sample_number_};
-    kernels_.shade(job, canvas_, band * kTileSize, std::min((band + 1) * kTileSize, target_.height),
-                   statistics_[static_cast<std::size_t>(band)]);
+    kernels_.shade(job, canvas_, band * kTileSize, y1, statistics_[static_cast<std::size_t>(band)]);
+  }
+
+  struct Columns {
+    int begin, end;
+  };
+
+  void store_empty(int y, Columns columns) const {
+    const auto samples = static_cast<std::size_t>(target_.samples);
+    const std::size_t begin = sample_index(columns.begin, y), end = sample_index(columns.end, y);
+    const float far = (greater_ ? -1 : 1) * std::numeric_limits<float>::infinity();
+    for (std::size_t at = begin; at < end; at += samples) {
+      if (!target_.count.empty()) target_.count[at] = 0;
+      if (!target_.index.empty()) target_.index[at] = kNoTriangle;
+      if (!target_.depth.empty()) target_.depth[at] = target_.initial_depth.empty() ? far : target_.initial_depth[at];
+    }
   }
 
   // visit(offset, index, n) for the row's samples, four columns at a time: n of them lie at `offset` of the canvas.
   template <typename Visit>
-  void for_each_four(int y, const Visit& visit) const {
-    for (int x = 0; x < target_.width; x += 4)
-      visit(canvas_.offset_of(x, y), sample_index(x, y), static_cast<std::size_t>(std::min(4, target_.width - x)));
+  void for_each_four(int y, Columns columns, const Visit& visit) const {
+    for (int x = columns.begin; x < columns.end; x += 4)
+      visit(canvas_.offset_of(x, y), sample_index(x, y), static_cast<std::size_t>(std::min(4, columns.end - x)));
   }
 
-  void store_count(int y) const {
+  void store_count(int y, Columns columns) const {
     const auto samples = static_cast<std::size_t>(target_.samples);
-    for_each_four(y, [&](std::size_t offset, std::size_t at, std::size_t n) {
+    for_each_four(y, columns, [&](std::size_t offset, std::size_t at, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) target_.count[at + i * samples] = canvas_.count[offset + i];
     });
   }
 
-  void store_depth(int y) const {
+  void store_depth(int y, Columns columns) const {
     const auto samples = static_cast<std::size_t>(target_.samples);
     const bool initial = !target_.initial_depth.empty();
-    for_each_four(y, [&](std::size_t offset, std::size_t at, std::size_t n) {
+    for_each_four(y, columns, [&](std::size_t offset, std::size_t at, std::size_t n) {
       const float* const depth = canvas_.depth + offset;
       float* const out = &target_.depth[at];
       if (initial) {
@@ -261,11 +324,11 @@ class Renderer {
     });
   }
 
-  void store_index(int y) const {
+  void store_index(int y, Columns columns) const {
     const auto samples = static_cast<std::size_t>(target_.samples);
     if (draws_.size() == 1 && draws_[0].identifiers.empty()) {
       const std::uint32_t first = draws_[0].first_index;
-      for_each_four(y, [&](std::size_t offset, std::size_t at, std::size_t n) {
+      for_each_four(y, columns, [&](std::size_t offset, std::size_t at, std::size_t n) {
         for (std::size_t i = 0; i < n; ++i) {
           const std::uint32_t winner = canvas_.winner[offset + i];
           target_.index[at + i * samples] = winner == kNoTriangle ? kNoTriangle : first + winner;
@@ -274,7 +337,7 @@ class Renderer {
       return;
     }
     std::size_t draw = 0;
-    for_each_four(y, [&](std::size_t offset, std::size_t at, std::size_t n) {
+    for_each_four(y, columns, [&](std::size_t offset, std::size_t at, std::size_t n) {
       for (std::size_t i = 0; i < n; ++i) {
         const std::uint32_t winner = canvas_.winner[offset + i];
         std::uint32_t index = kNoTriangle;
@@ -298,10 +361,11 @@ class Renderer {
 
   const Target& target_;
   std::span<const Draw> draws_;
+  const CoverageVisitor* visitor_;
   int threads_;
   Team team_;
   const Kernels& kernels_ = kernels();
-  bool attributes_ = false, shading_ = false, visibility_ = false, depth_ = false, greater_ = false;
+  bool attributes_ = false, shading_ = false, visibility_ = false, depth_ = false, counts_ = false, greater_ = false;
   std::size_t sample_number_ = 0;
   SamplePosition sample_{0.5, 0.5};
 
@@ -310,13 +374,14 @@ class Renderer {
   Buffer<Batch> batches_;
   Canvas canvas_;
   Buffer<float> depth_buffer_, block_far_, tile_far_;
-  Buffer<std::uint32_t> winner_, count_, column_, row_;
+  Buffer<std::uint32_t> winner_, count_, column_, row_, marked_;
+  Buffer<std::uint64_t> masks_;
+  Buffer<std::uint8_t> untouched_;
 };
 
 }  // namespace
 
-bool supports(const Target& target, std::span<const Draw> draws) {
-  (void)target;
+bool supports(std::span<const Draw> draws) {
   std::size_t triangles = 0;
   for (const Draw& draw : draws) {
     triangles += draw.indices.size() / 3;
@@ -325,8 +390,14 @@ bool supports(const Target& target, std::span<const Draw> draws) {
   return true;
 }
 
-Status render(const Target& target, std::span<const Draw> draws, int threads, Statistics& statistics) noexcept {
-  return Renderer(target, draws, threads).render(statistics);
+Status render(const Target& target, std::span<const Draw> draws, const Options& options,
+              Statistics& statistics) noexcept {
+  return Renderer(target, draws, nullptr, options).render(statistics);
+}
+
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      const Options& options, Statistics& statistics) noexcept {
+  return Renderer(target, draws, &visitor, options).render(statistics);
 }
 
 }  // namespace surefill::fast

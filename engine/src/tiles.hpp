@@ -11,12 +11,16 @@
 namespace surefill::fast {
 
 // Does the fast path draw frames like this one? If not, the reference path has to.
-bool supports(const Target& target, std::span<const Draw> draws);
+bool supports(std::span<const Draw> draws);
 
-// As reference::render, on `threads` threads. Working memory: 4 bytes a pixel for depth, 4 for visibility, 4 for
-// counts, as far as they are asked for, with the target's sides rounded up to multiples of 64; 3 MiB for the triangles
-// at hand.
-Status render(const Target& target, std::span<const Draw> draws, int threads, Statistics& statistics) noexcept;
+// As reference::render. Working memory: 4 bytes a pixel for depth, 4 for visibility, 4 for counts, as
+// far as they are asked for, with the target's sides rounded up to multiples of 64; 64 KiB a thread.
+Status render(const Target& target, std::span<const Draw> draws, const Options& options,
+              Statistics& statistics) noexcept;
+
+// As reference::visit_coverage.
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      const Options& options, Statistics& statistics) noexcept;
 
 }  // namespace surefill::fast
 

@@ -17,10 +17,10 @@
 // Errors     Nothing throws, prints or aborts. A Status names the argument at fault; then nothing was written [B2].
 //            A triangle with a NaN or an infinity is dropped and counted, and changes nothing else [B1].
 // Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
-//            only if Options asks for them, and they end with it.
-// Memory     A call allocates what it needs and frees it: up to 12 bytes a pixel (by what is asked for) and 3 MiB, on
-// the
-//            reference path up to 8 bytes a sample. When that cannot be had, the status is out_of_memory.
+//            only if Options asks for them, and they end with it; or it uses the caller's.
+// Memory     A call allocates what it needs and frees it: up to 12 bytes a pixel (by what is asked for) and 64 KiB a
+//            thread, however many triangles there are; on the reference path up to 8 bytes a sample. When that cannot
+//            be had, the status is out_of_memory.
 #ifndef SUREFILL_SUREFILL_HPP
 #define SUREFILL_SUREFILL_HPP
 
@@ -74,6 +74,7 @@ enum class Status : std::uint32_t {
   options_path,                  // not an enumerator of Path
   query_boxes,                   // of an occlusion query: null but not empty, or a number that is not finite
   query_answers,                 // null but not empty, or not one for each box
+  visitor,                       // of visit_coverage: its function is null
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
@@ -208,21 +209,33 @@ struct Statistics {
   std::uint64_t values_by_filter = 0;
   std::uint64_t values_by_expansion = 0;
 
+  std::uint64_t skipped_draws = 0;  // by a culling box [M6]; their triangles count as outside (fast path)
+
   const char* path = "";  // what drew the frame: "reference", or the fast path's instruction set; a string constant
 };
 
 // Who draws. Both paths give the same image.
 enum class Path : std::uint8_t {
-  automatic,  // the fast path where it can: no grid, not conservative; else the reference path
+  automatic,  // the fast path; the reference path only for 2^32 - 1 triangles and more in all draws together
   reference,  // the scalar reference path, on one thread
 };
 
 inline constexpr int kMaxThreads = 256;  // of one call
 
+// The caller's own threads. run(context, items, task, argument) calls task(argument, i) once for each i in [0, items),
+// on any threads and in any order, and returns when all have returned; no task waits for another. For oneTBB there is
+// surefill/tbb.hpp.
+struct Executor {
+  void (*run)(void* context, std::size_t items, void (*task)(void* argument, std::size_t item),
+              void* argument) = nullptr;
+  void* context = nullptr;
+};
+
 // How a frame is drawn. The image does not depend on it.
 struct Options {
-  int threads = 1;  // 1..kMaxThreads; if fewer can be started, fewer do the work
+  int threads = 1;  // 1..kMaxThreads: into so many parts work is divided; if fewer can be started, fewer do the work
   Path path = Path::automatic;
+  Executor executor = {};  // whose threads work if `run` is not null; else the call starts threads - 1 of its own
 };
 
 // The samples of an 8 x 8 block of pixels that a triangle covers.
@@ -248,6 +261,15 @@ SUREFILL_API std::size_t sample_total(const Target& target) noexcept;
 // is ok, or out_of_memory (then the buffers asked for hold unspecified values). `statistics` may be null.
 SUREFILL_API Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics = nullptr,
                            const Options& options = {}) noexcept;
+
+// Streams coverage instead of storing an image: `visitor` receives, for each sample number, draw and triangle, the
+// blocks with samples that the triangle covers, as M2 counts them: dropped and culled triangles, scissor and depth clip
+// are taken into account, the depth test is not. Within a tile of 64 x 64 pixels the triangles of a sample number come
+// in order, all from one thread; with several threads, tiles of different rows come at once. The visitor returns
+// normally. Memory: 12 bytes a block; where a draw clips depth, also 8 bytes a pixel.
+SUREFILL_API Status visit_coverage(int width, int height, int samples, std::span<const Draw> draws,
+                                   const CoverageVisitor& visitor, Statistics* statistics = nullptr,
+                                   const Options& options = {}) noexcept;
 
 // Checks the arguments of render as render does, and draws nothing.
 SUREFILL_API Status validate(const Target& target, std::span<const Draw> draws) noexcept;

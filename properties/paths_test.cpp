@@ -100,10 +100,34 @@ TEST_P(OnTarget, SeveralBandsEqualTheReference) {
   compare_paths(GetParam(), 400, 12, 2);
 }
 
+// M4 where a vertex is behind the eye: thin corners of T, at all angles, in all classes of size.
+TEST_P(OnTarget, ConservativeBehindTheEyeEqualsTheReference) {
+  Random random(11);
+  for (int n = 0; n < 4000; ++n) {
+    corpus::Scene scene;
+    scene.width = scene.height = n % 8 == 0 ? 150 : n % 2 == 0 ? 60 : 16;
+    corpus::SceneDraw& draw = scene.draws.emplace_back();
+    draw.conservative = n % 4 == 3 ? Conservative::inner : Conservative::over;
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const auto pixel = [&](int size) {
+        return static_cast<float>(random.below(16 * static_cast<std::uint32_t>(size))) / 16;
+      };
+      const float w = (k < 1 + static_cast<std::uint32_t>(n % 2) ? 1.0f : -1.0f) * (0.25f + pixel(2));
+      draw.vertices.push_back({pixel(scene.width) * w, pixel(scene.height) * w, 0.5f, w, {}});
+    }
+    draw.triangles.push_back({{0, 1, 2}, {}});
+    std::string reference, fast;
+    const Comparison result =
+        compare(scene, on_path({.path = Path::reference}, &reference), on_path({}, &fast), outputs_of(scene));
+    ASSERT_EQ(result.differences, 0u) << describe(result.first.front(), 1) << '\n' << corpus::write_scene(scene);
+  }
+}
+
 // What this machine has and this compiler was given (HWY_TARGETS).
 std::vector<std::int64_t> targets() {
   std::vector<std::int64_t> all;
-  for (std::int64_t bits = hwy::SupportedTargets() & HWY_TARGETS; bits != 0; bits &= bits - 1) all.push_back(bits & -bits);
+  for (std::int64_t bits = hwy::SupportedTargets() & HWY_TARGETS; bits != 0; bits &= bits - 1)
+    all.push_back(bits & -bits);
   return all;
 }
 

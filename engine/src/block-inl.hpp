@@ -318,13 +318,6 @@ class Rasterizer {
     }
     constexpr std::int32_t kBound = kExactCoverage ? kTileBound : 0;
     slot.doubt = 2 * kBound;
-    if (HWY_UNLIKELY(job_.draw->conservative == Conservative::over && (batch_->behind >> lane & 1) != 0)) {
-      // As in StoreEdges.
-      double half = 0;
-      for (std::size_t i = 0; i < 3; ++i) half = std::max(half, (std::fabs(a[i]) + std::fabs(b[i])) / 2);
-      slot.doubt += static_cast<std::int32_t>(std::ceil(half)) + 1;
-      for (double& m : most) m += slot.doubt;
-    }
     for (std::size_t k = 0; k < 3; ++k)
       slot.most[k] = 3 * (std::max(slot.a[k], 0) + std::max(slot.b[k], 0)) + slot.doubt;
     LoadSteps(slot);

@@ -108,7 +108,6 @@ struct alignas(64) Batch {
   std::uint32_t medium;      // box within 8 x 8 blocks; the origin is the box's first block, as it is for all others
   std::uint32_t slow_depth;  // no error bound of depth is known
   std::uint32_t clip;        // depth may lie outside 0..1 somewhere
-  std::uint32_t behind;      // not all W > 0
   std::uint32_t negative;    // D < 0
   std::uint32_t clipped;     // not live: Grid clips the triangle, and its fan becomes a batch of its own
   std::uint32_t first;       // position in the draw of lane 0

@@ -43,14 +43,6 @@ HWY_INLINE std::uint32_t Bits(D d, M mask) {
 #endif
 }
 
-// The lanes of a set.
-HWY_INLINE hn::Mask<DoubleTag> LanesOf(std::uint32_t bits) {
-  const DoubleTag d;
-  alignas(64) double lanes[kBatch];
-  for (std::size_t l = 0; l < kBatch; ++l) lanes[l] = static_cast<double>(bits >> l & 1);
-  return hn::Gt(hn::Load(d, lanes), hn::Zero(d));
-}
-
 // The three vertices of as many triangles as FloatTag has lanes.
 struct Corner {
   Float x, y, z, w;

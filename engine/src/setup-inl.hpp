@@ -41,10 +41,9 @@ HWY_INLINE void SetUpBoxes(const DrawJob& job, const Vertex* const (&vertices)[3
     PixelRange(bx[0], bx[1], bx[2], bw[0], bw[1], bw[2], job.sample.x, region.x0, region.x1, first_x, last_x);
     PixelRange(by[0], by[1], by[2], bw[0], bw[1], bw[2], job.sample.y, region.y0, region.y1, first_y, last_y);
   }
-  const std::uint32_t mixed = Bits(df, hn::Not(front)) & (all >> lane);
-  batch.behind |= mixed << lane;
-  for (std::uint32_t rest = mixed; HWY_UNLIKELY(rest != 0); rest &= rest - 1) {
-    const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(rest));
+  std::uint32_t mixed = Bits(df, hn::Not(front)) & (all >> lane);
+  for (; HWY_UNLIKELY(mixed != 0); mixed &= mixed - 1) {
+    const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(mixed));
     const Vertex &v0 = *vertices[0][l], &v1 = *vertices[1][l], &v2 = *vertices[2][l];
     const bool numbers = AllFinite(v0) && AllFinite(v1) && AllFinite(v2);
     const PixelBox box = !numbers ? region
@@ -55,9 +54,9 @@ HWY_INLINE void SetUpBoxes(const DrawJob& job, const Vertex* const (&vertices)[3
   }
 }
 
-// The edges of lanes lane ... as integers, scaled so that all steps stay exact. Conservative: each edge moved by half a
-// pixel each way, outwards (over) or inwards (inner), so that the pixel's centre tells of its square, where all W > 0;
-// with a vertex behind the eye, over leaves that to exact arithmetic, by its doubt. Edges are positive inside.
+// The edges of lanes lane ... as integers, scaled so that all steps stay exact; positive inside. Conservative: each
+// edge moved by half a pixel each way, outwards (over) or inwards (inner), so that the pixel's centre tells of its
+// square. For over, the square must also meet the box, which is exact (docs/precision.md).
 HWY_INLINE void StoreEdges(const DrawJob& job, Edges& edges, hn::Vec<IntTag> cell_span, hn::Mask<DoubleTag> integer,
                            const Double (&scale)[3], std::uint32_t all, std::uint32_t lane, Batch& batch) {
   const DoubleTag dd;
@@ -72,20 +71,15 @@ HWY_INLINE void StoreEdges(const DrawJob& job, Edges& edges, hn::Vec<IntTag> cel
   const auto edge_bound = HWY_UNLIKELY(any_integer)
                               ? hn::DemoteTo(di, hn::IfThenZeroElse(integer, hn::PromoteTo(dd, rounded_bound)))
                               : rounded_bound;
-  auto doubt = hn::Add(edge_bound, edge_bound);
   if (HWY_UNLIKELY(conservative != Conservative::none)) {
-    const bool over = conservative == Conservative::over;
-    const auto unmoved = over ? LanesOf(batch.behind >> lane) : hn::Lt(hn::Zero(dd), hn::Zero(dd));
-    Double most = hn::Zero(dd);
     for (std::size_t i = 0; i < 3; ++i) {
-      const Double half = hn::Mul(hn::Add(hn::Abs(edges.a[i]), hn::Abs(edges.b[i])), hn::Set(dd, over ? 0.5 : -0.5));
-      edges.e[i] = hn::IfThenElse(unmoved, edges.e[i], hn::Add(edges.e[i], half));
-      edges.c[i] = hn::IfThenElse(unmoved, edges.c[i], hn::Add(edges.c[i], half));
-      most = hn::Max(most, hn::Mul(half, scale[i]));
+      const Double half = hn::Mul(hn::Add(hn::Abs(edges.a[i]), hn::Abs(edges.b[i])),
+                                  hn::Set(dd, conservative == Conservative::over ? 0.5 : -0.5));
+      edges.e[i] = hn::Add(edges.e[i], half);
+      edges.c[i] = hn::Add(edges.c[i], half);
     }
-    const Double more = hn::IfThenElseZero(unmoved, hn::Add(hn::Ceil(most), hn::Set(dd, 1.0)));
-    doubt = hn::Add(doubt, RoundToInt(more));
   }
+  const auto doubt = hn::Add(edge_bound, edge_bound);
   hn::Store(doubt, di, batch.doubt + lane);
   const Double limit = hn::Set(dd, kEdgeLimit);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -176,7 +170,7 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const Vertex* const (&vertices
   const Draw& draw = *job.draw;
   const bool grid = draw.grid.has_value();
   FoundLanes found;
-  batch.small = batch.medium = batch.slow_depth = batch.clip = batch.behind = batch.negative = 0;
+  batch.small = batch.medium = batch.slow_depth = batch.clip = batch.negative = 0;
 
   constexpr auto kLanes = static_cast<std::uint32_t>(hn::MaxLanes(DoubleTag()));
   for (std::uint32_t lane = 0; lane < kBatch; lane += kLanes) {

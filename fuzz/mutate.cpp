@@ -168,6 +168,19 @@ void scale(Scene&, SceneDraw& draw, Random& random) {
   }
 }
 
+// The same position by numbers that need all their bits: what was exact is so no more, but for a few units.
+void fill_bits(Scene&, SceneDraw& draw, Random& random) {
+  const double factor = 1 + random.unit();
+  const auto whole = [&](SceneVertex& v) {
+    for (float* value : {&v.x, &v.y, &v.z, &v.w}) *value = rounded(static_cast<double>(*value) * factor);
+  };
+  if (random.one_in(2)) {
+    whole(any_vertex(draw, random));
+  } else {
+    std::for_each(draw.vertices.begin(), draw.vertices.end(), whole);
+  }
+}
+
 void swap_order(Scene&, SceneDraw& draw, Random& random) {
   if (random.one_in(2) && draw.triangles.size() > 1) {
     const auto count = static_cast<std::uint32_t>(draw.triangles.size());
@@ -215,11 +228,18 @@ void round_to_sixteenths(Scene&, SceneDraw& draw, Random& random) {
 }
 
 // A plain position near the target, so that a triangle covers something.
-void move_into_view(Scene& scene, SceneDraw& draw, Random& random) {
-  SceneVertex& v = any_vertex(draw, random);
+void place_in_view(const Scene& scene, SceneVertex& v, Random& random) {
+  const double beyond = random.one_in(4) ? 2 : 0.25;  // of the side
+  const auto position = [&](int side) {
+    return rounded(std::floor((random.unit() * (1 + 2 * beyond) - beyond) * side * 16) / 16);
+  };
   v.w = 1;
-  v.x = rounded(std::floor((random.unit() * 1.5 - 0.25) * scene.width * 16) / 16);
-  v.y = rounded(std::floor((random.unit() * 1.5 - 0.25) * scene.height * 16) / 16);
+  v.x = position(scene.width);
+  v.y = position(scene.height);
+}
+
+void move_into_view(Scene& scene, SceneDraw& draw, Random& random) {
+  place_in_view(scene, any_vertex(draw, random), random);
 }
 
 // Depths at which something is decided, and attributes that are constant or nearly so.
@@ -267,13 +287,18 @@ void use_grid(Scene&, SceneDraw& draw, Random& random) {
   }
 }
 
-// A triangle whose D or edge function is a few units left of large terms: no chance and no nudge finds these.
+// A triangle whose D or edge function is a few units left of large terms, or one that the guard band cuts almost
+// halfway between grid positions: no chance and no nudge finds these.
 void make_nearly_zero(Scene& scene, SceneDraw& draw, Random& random) {
   const Corners c = any_corners(draw, random);
-  const std::array<Vertex, 3> t = random.one_in(2) ? properties::nearly_tied_triangle(random, scene.width, scene.height)
-                                  : random.one_in(2)
-                                      ? properties::nearly_degenerate_triangle(random)
-                                      : properties::nearly_degenerate_tied_triangle(random, scene.width, scene.height);
+  const auto triangle = [&] {
+    if (draw.grid && random.one_in(8))
+      return properties::nearly_halfway_cut_triangle(random, *draw.grid, scene.width, scene.height);
+    if (random.one_in(2)) return properties::nearly_tied_triangle(random, scene.width, scene.height);
+    if (random.one_in(2)) return properties::nearly_degenerate_triangle(random);
+    return properties::nearly_degenerate_tied_triangle(random, scene.width, scene.height);
+  };
+  const std::array<Vertex, 3> t = triangle();
   const std::size_t corners[] = {c.i, c.j, c.k};
   for (std::size_t i = 0; i < 3; ++i) {
     SceneVertex& v = draw.vertices[corners[i]];
@@ -293,6 +318,65 @@ void repeat_triangle(Scene&, SceneDraw& draw, Random& random) {
   }
 }
 
+// A culling box must go on holding the draw (M6): its corners are the vertices in turn.
+void renew_culling_box(SceneDraw& draw) {
+  if (!draw.culling_box) return;
+  for (std::size_t i = 0; i < draw.culling_box->size(); ++i) {
+    const SceneVertex& v = draw.vertices[i % draw.vertices.size()];
+    (*draw.culling_box)[i] = {v.x, v.y, v.z, v.w};
+  }
+}
+
+// One triangle more, where the form has room: three new vertices in view, or the vertices of another triangle. Old and
+// new identifiers, if there are any, fall.
+void add_triangle(Scene& scene, Random& random) {
+  SceneDraw& draw = any_draw(scene, random);
+  if (draw.triangles.size() >= kMaxTriangles) return;
+  if (draw.triangles.empty() || (random.one_in(2) && draw.vertices.size() + 3 <= kMaxVertices)) {
+    const std::size_t first = draw.vertices.size() + 3 <= kMaxVertices ? draw.vertices.size() : 0;
+    draw.vertices.resize(std::max(draw.vertices.size(), first + 3));
+    std::size_t components = 0;
+    for (const corpus::SceneAttribute& attribute : scene.attributes) components += attribute.components;
+    const bool level = random.one_in(2);
+    for (std::size_t i = first; i < first + 3; ++i) {
+      draw.vertices[i].attributes.resize(components);
+      place_in_view(scene, draw.vertices[i], random);
+      draw.vertices[i].z = level ? 0.5f : rounded(random.unit());
+    }
+    const auto v = static_cast<std::uint32_t>(first);
+    draw.triangles.push_back({{v, v + 1, v + 2}, {}});
+  } else {
+    const SceneTriangle copy = draw.triangles[random.below(static_cast<std::uint32_t>(draw.triangles.size()))];
+    draw.triangles.push_back(copy);
+  }
+  const bool identifiers = draw.triangles[0].identifier.has_value() || random.one_in(2);
+  auto left = static_cast<std::uint32_t>(draw.triangles.size());
+  if (identifiers) {
+    for (SceneTriangle& triangle : draw.triangles) triangle.identifier = --left;
+  }
+  renew_culling_box(draw);
+}
+
+// A triangle of one depth, and another whose depth passes it between the last samples of a block (8) and those before,
+// along x, y or both; either may hold the whole target.
+void cross_depths(Scene& scene, SceneDraw& draw, Random& random) {
+  if (draw.triangles.size() < 2) return;
+  const double level = random.unit(), slope = any_power_of_two(random, 8);
+  const double last_x = 8 * random.between(0, scene.width / 8) + 7,
+               last_y = 8 * random.between(0, scene.height / 8) + 7;
+  const int along_x = random.between(-1, 1), along_y = random.between(-1, 1);
+  const std::uint32_t first = random.below(static_cast<std::uint32_t>(draw.triangles.size() - 1));
+  for (const bool is_second : {false, true}) {
+    const bool whole = random.one_in(2);
+    for (std::size_t i = 0; i < 3; ++i) {
+      SceneVertex& v = draw.vertices[draw.triangles[is_second ? first + 1 : first].vertices[i]];
+      if (whole) v.x = rounded(i == 1 ? 3 * scene.width : -1), v.y = rounded(i == 2 ? 3 * scene.height : -1), v.w = 1;
+      const double w = v.w, passed = along_x * (v.x - last_x * w) + along_y * (v.y - last_y * w);
+      v.z = rounded(level * w + (is_second ? slope * passed : 0));
+    }
+  }
+}
+
 using Mutation = void (*)(Scene&, SceneDraw&, Random&);
 constexpr Mutation kMutations[] = {
     vertex_on_sample,
@@ -305,6 +389,7 @@ constexpr Mutation kMutations[] = {
     share_edge,
     change_w,
     scale,
+    fill_bits,
     swap_order,
     align_to_border,
     copy_coordinate,
@@ -318,16 +403,8 @@ constexpr Mutation kMutations[] = {
     make_nearly_zero,
     make_nearly_zero,
     repeat_triangle,
+    cross_depths,
 };
-
-// A culling box must go on holding the draw (M6): its corners are the vertices in turn.
-void renew_culling_box(SceneDraw& draw) {
-  if (!draw.culling_box) return;
-  for (std::size_t i = 0; i < draw.culling_box->size(); ++i) {
-    const SceneVertex& v = draw.vertices[i % draw.vertices.size()];
-    (*draw.culling_box)[i] = {v.x, v.y, v.z, v.w};
-  }
-}
 
 bool plain() {
   static const bool is_plain = std::getenv("SUREFILL_FUZZ_PLAIN") != nullptr;
@@ -407,8 +484,19 @@ std::size_t mutate_bytes(const Form& form, std::uint8_t* data, std::size_t size,
   if (plain() || random.one_in(2)) return mutate_plainly(data, size, max_size, random);
   const std::span<const std::uint8_t> old(data, size);
   Scene scene = form.decode(old);
-  mutate(scene, random);
-  const std::optional<Bytes> bytes = bytes_of(form, scene, old);
+  if (!form.sides.empty() && random.one_in(16)) {
+    (random.one_in(2) ? scene.width : scene.height) =
+        form.sides[random.below(static_cast<std::uint32_t>(form.sides.size()))];
+  } else if (form.grows && random.one_in(8)) {
+    add_triangle(scene, random);
+  } else {
+    mutate(scene, random);
+  }
+  std::optional<Bytes> bytes = bytes_of(form, scene, old);
+  if (bytes && form.kept_end > form.kept_begin && random.one_in(8)) {
+    const auto kept = random.between(static_cast<int>(form.kept_begin), static_cast<int>(form.kept_end) - 1);
+    (*bytes)[static_cast<std::size_t>(kept)] = static_cast<std::uint8_t>(random.bits());
+  }
   return bytes ? store(*bytes, {data, max_size}) : mutate_plainly(data, size, max_size, random);
 }
 

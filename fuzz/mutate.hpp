@@ -21,19 +21,22 @@ void mutate(corpus::Scene& scene, properties::Random& random);
 // A scene with something of another: vertices, an edge in common, a draw, state, or the frame.
 void cross(corpus::Scene& scene, const corpus::Scene& other, properties::Random& random);
 
-// A form of scenes. Bytes from `size` on are no part of it and are kept, and so are those from `kept_begin` to
-// `kept_end`.
+// A form of scenes. Bytes from `size` on are no part of it and are kept, and so mostly are those from
+// `kept_begin` to `kept_end`. A form that grows has room for more
+// triangles. Targets have the sides that are given, or are changed by bytes alone.
 struct Form {
   corpus::Scene (*decode)(std::span<const std::uint8_t>);
   std::optional<Bytes> (*encode)(const corpus::Scene&);
   std::size_t size;
+  bool grows;
   std::size_t kept_begin = 0, kept_end = 0;
+  std::span<const int> sides = {};
 };
-inline constexpr Form triangle_form{decode_triangle, encode_triangle, kTriangleBytes};
-inline constexpr Form grid_triangle_form{decode_grid_triangle, encode_grid_triangle, kGridTriangleBytes};
-inline constexpr Form scene_form{decode_scene, encode_scene, SIZE_MAX};
-inline constexpr Form samples_form{decode_samples, encode_samples, SIZE_MAX};
-inline constexpr Form paths_form{decode_paths, encode_paths, SIZE_MAX, 1, 3};
+inline constexpr Form triangle_form{decode_triangle, encode_triangle, kTriangleBytes, false};
+inline constexpr Form grid_triangle_form{decode_grid_triangle, encode_grid_triangle, kGridTriangleBytes, false};
+inline constexpr Form scene_form{decode_scene, encode_scene, SIZE_MAX, true};
+inline constexpr Form samples_form{decode_samples, encode_samples, SIZE_MAX, true};
+inline constexpr Form paths_form{decode_paths, encode_paths, SIZE_MAX, true, 1, 3, kPathSides};
 
 // Bodies of LLVMFuzzerCustomMutator and LLVMFuzzerCustomCrossOver: half of the time by the scene, else by bytes. With
 // SUREFILL_FUZZ_PLAIN in the environment always by bytes, to see what the scenes are good for.

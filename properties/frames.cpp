@@ -103,7 +103,8 @@ void compare_changed(Check& check, const char* what, const std::pair<corpus::Sce
 Verdict decide_translation(const corpus::Scene& scene, const Renderer& renderer) {
   Check check(renderer);
   constexpr std::array<int, 2> kShifts[] = {{0, 0}, {1, 0}, {3, 5}, {64, 2}};
-  for (const auto& [dx, dy] : kShifts) {
+  for (const std::array<int, 2>& shift : kShifts) {
+    const int dx = shift[0], dy = shift[1];
     auto scenes = changed_exactly(without_places(scene), [&](const Vertex& v) { return moved_exactly(v, dx, dy); });
     scenes.second.width += dx + 2;
     scenes.second.height += dy + 1;

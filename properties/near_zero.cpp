@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <cstdlib>
 #include <optional>
 #include <utility>
@@ -166,6 +167,57 @@ std::array<Vertex, 3> nearly_degenerate_tied_triangle(Random& random, int width,
     const int ea = spread(), eb = spread(), ec = spread();
     return {to_vertex(a, ea), to_vertex(b, eb), to_vertex(*c, ec)};
   }
+}
+
+// The edge leads from b, which is snapped to a grid position, past a sample to a, which is found by the determinant of
+// a, b and c: c lies on the border of the guard band, in the middle of the two grid positions between whose lines to
+// the snapped b the sample lies. Positions are integers in sixteenths of a step of the grid.
+std::array<Vertex, 3> nearly_halfway_cut_triangle(Random& random, Grid& grid, int width, int height) {
+  constexpr int kTries = 128;
+  constexpr std::int64_t kBand = kMaxTargetSize + 1;
+  grid.bits = random.between(1, 4);
+  if (grid.rounding == GridRounding::truncate) grid.rounding = GridRounding::nearest_up;
+  const bool swap_axes = random.one_in(2);
+  if (swap_axes) std::swap(width, height);
+  const int offset_x = swap_axes ? grid.offset_y : grid.offset_x, offset_y = swap_axes ? grid.offset_x : grid.offset_y;
+  const std::int64_t pixel = std::int64_t{16} << grid.bits;
+  for (int tries = 0; tries < kTries; ++tries) {
+    const std::int64_t sample_x = (2 * random.between(0, width - 1) + 1) * pixel / 2;
+    const std::int64_t sample_y = (2 * random.between(0, height - 1) + 1) * pixel / 2;
+    const int reach = 1 << grid.bits;
+    const std::int64_t b_x = offset_x - 16 * random.between(2 * reach, 8 * reach);
+    const std::int64_t b_y = offset_y + 16 * random.between(-12 * reach, 12 * reach);
+    // Where the line through both meets the border, and the middle there.
+    const double slope = static_cast<double>(sample_y - b_y) / static_cast<double>(sample_x - b_x);
+    const double y = static_cast<double>(b_y) + slope * static_cast<double>(kBand * pixel - b_x);
+    if (std::fabs(y) > 0.9 * static_cast<double>(kBand * pixel)) continue;
+    const std::int64_t middle = 16 * std::llrint(std::floor((y - offset_y) / 16)) + 8 + offset_y;
+
+    const IntegerVector c = {kBand * pixel, middle, pixel};
+    const Integer b_w = random.between(1 << 19, 1 << 20);
+    const IntegerVector b = {b_w * b_x / pixel, b_w * b_y / pixel, b_w};
+    const auto solution = solve(cross(c, b), random.between(1, 8), magnitude(random, 22, 23), random);
+    if (!solution || !fits(*solution) || !fits(b)) continue;
+    IntegerVector a = *solution;
+    const auto beyond = [&](const IntegerVector& v) { return v[0] - kBand * v[2]; };
+    if (beyond(a) < 0) a = {-a[0], -a[1], -a[2]};
+    const auto at_border = [&](std::size_t i) { return b[i] * beyond(a) - a[i] * beyond(b); };
+    const Integer cut_w = at_border(2), rest = at_border(1) * pixel - middle * cut_w;
+    if (cut_w <= 0) continue;
+    const double quotient = static_cast<double>(at_border(1)) / static_cast<double>(cut_w) * static_cast<double>(pixel);
+    const auto expected = static_cast<double>(middle);
+    if (rest == 0 || quotient == expected || (quotient > expected) == (rest > 0)) continue;
+
+    std::array<Vertex, 3> t = {to_vertex(a, random.between(-30, 0)),
+                               to_vertex(b, random.between(-30, 0)),
+                               {static_cast<float>(width * random.unit()), 0, 0, 1}};
+    t[2].y = static_cast<float>(height * random.unit()) + (random.one_in(2) ? 60.0f : -60.0f);
+    if (swap_axes) {
+      for (Vertex& v : t) std::swap(v.x, v.y);
+    }
+    return t;
+  }
+  return nearly_tied_triangle(random, width, height);
 }
 
 }  // namespace surefill::properties

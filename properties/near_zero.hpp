@@ -21,6 +21,11 @@ std::array<Vertex, 3> nearly_degenerate_triangle(Random& random);
 // |D| of at most two units of its greatest common divisor, and an edge exactly through a sample.
 std::array<Vertex, 3> nearly_degenerate_tied_triangle(Random& random, int width, int height);
 
+// On a grid, which is changed to one of few bits that rounds to nearest: the edge between the first two vertices leaves
+// the guard band so near to the middle of two grid positions that a double's rounding goes to the wrong one, and a
+// sample, the centre of a pixel, lies between the two edges that these make. If none is found, a nearly tied triangle.
+std::array<Vertex, 3> nearly_halfway_cut_triangle(Random& random, Grid& grid, int width, int height);
+
 }  // namespace surefill::properties
 
 #endif  // SUREFILL_PROPERTIES_NEAR_ZERO_HPP

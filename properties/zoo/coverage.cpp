@@ -38,7 +38,7 @@ Status boxed(const Target& target, Draws draws, const PixelBox& pixel_box) {
     const Corners c = corners(draw, 0);
     if (!in_front(c)) return counts;
     const auto [x0, y0, x1, y1] = pixel_box(box_of(c));
-    mask(t, counts, [&](int x, int y) {
+    mask(t, counts, [x0 = x0, y0 = y0, x1 = x1, y1 = y1](int x, int y) {
       const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
       return fx >= x0 && fx < x1 && fy >= y0 && fy < y1;
     });

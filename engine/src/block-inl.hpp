@@ -67,6 +67,8 @@ class Rasterizer {
     DrawCells(1);
   }
 
+  HWY_NOINLINE void DrawLanes(std::uint32_t lanes) { Lanes(lanes); }
+
   // The same where some are clipped, or a visitor has to see each.
   HWY_NOINLINE void OneByOne() {
     for (std::uint32_t lanes = batch_->live | batch_->clipped; lanes != 0; lanes &= lanes - 1) {
@@ -74,7 +76,7 @@ class Rasterizer {
       if ((batch_->clipped >> lane & 1) != 0) {
         Clipped(batch_->position(lane));
       } else {
-        Lanes(1u << lane);
+        DrawLanes(1u << lane);
       }
       if (kCount && canvas_.masks != nullptr) writer_.Emit(batch_->position(lane));
     }
@@ -108,7 +110,7 @@ class Rasterizer {
     Batch fan;
     if (SetUpFan(job_, position, snapped, fan)) {
       batch_ = &fan;
-      Lanes(fan.live);
+      DrawLanes(fan.live);
       batch_ = others;
       return;
     }

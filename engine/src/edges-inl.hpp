@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "canvas.hpp"
+#include "exact_draw.hpp"
 #include "hwy/highway.h"
 #include "planted.hpp"
 
@@ -186,8 +187,7 @@ HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(const Draw& draw, std::uint32_t firs
   hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
   for (; uncertain != 0; uncertain &= uncertain - 1) {
     const auto lane = static_cast<std::uint32_t>(__builtin_ctz(uncertain));
-    const EdgeFunction edge(VertexOf(draw, first + lane, 1), VertexOf(draw, first + lane, 2));
-    const int sign = determinant_sign(edge, VertexOf(draw, first + lane, 0), statistics);
+    const int sign = orientation(draw, first + lane, statistics);
     signs[lane] = sign < 0 ? -1 : 1;
     if (sign == 0) degenerate |= 1u << lane;
   }

@@ -11,11 +11,9 @@
 #endif
 
 #include "cell-inl.hpp"
-#include "conservative.hpp"
-#include "grid.hpp"
+#include "exact_draw.hpp"
 #include "planted.hpp"
 #include "setup-inl.hpp"
-#include "triangle.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
@@ -51,10 +49,9 @@ class FragmentWriter {
     const PixelBox& r = job_.region;
     if (x < r.x0 || x >= r.x1 || y < r.y0 || y >= r.y1) return false;
     if (draw_.grid) return SnappedCovers(*draw_.grid, batch, slot.lane, Position(x, y), job_.shift);
-    Triangle& triangle = Exact(slot.position);
-    if (draw_.conservative == Conservative::none) return triangle.covers(Position(x, y), job_.shift, statistics_);
-    const PixelSquare square(triangle, x, y, statistics_);
-    return draw_.conservative == Conservative::over ? square.touched() : square.inside();
+    exact_.use(draw_, slot.position);
+    return draw_.conservative == Conservative::none ? exact_.covers(Position(x, y), job_.shift, statistics_)
+                                                    : exact_.counts_square(x, y, statistics_);
   }
 
   // A covered sample that is drawn by exact arithmetic alone.
@@ -63,24 +60,18 @@ class FragmentWriter {
     const std::size_t offset = canvas_.offset_of(x, y);
     float z = 0;
     if (kDepth) {
-      const bool kept = draw_.grid ? Snapped(position).depth(Position(x, y), draw_.depth_mode, &z, statistics_)
-                                   : Exact(position).depth(Position(x, y), draw_.depth_mode, &z, statistics_);
-      if (!kept) return;
+      exact_.use(draw_, position);
+      if (!exact_.depth(Position(x, y), &z, statistics_)) return;
       if (job_.greater) z = 0.0f - z;
     }
     if (kCount) CountOne(offset);
     if (kDepth && Passes(position, z, offset)) Store(position, z, offset);
   }
 
-  // The clipped triangle at `position`, for exact arithmetic. Grid only.
+  // The clipped triangle at `position`. Grid only.
   SnappedTriangle& Snapped(std::uint32_t position) {
-    if (snapped_position_ != position) {
-      Statistics unused;
-      snapped_.set_up(VertexOf(draw_, position, 0), VertexOf(draw_, position, 1), VertexOf(draw_, position, 2),
-                      *draw_.grid, unused);
-      snapped_position_ = position;
-    }
-    return snapped_;
+    exact_.use(draw_, position);
+    return exact_.snapped();
   }
 
   // Lanes i ... of a cell. kSkip: leave early where nothing is seen, which pays where that is likely.
@@ -239,16 +230,6 @@ class FragmentWriter {
  private:
   SamplePosition Position(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
 
-  // The triangle at `position` for exact arithmetic.
-  Triangle& Exact(std::uint32_t position) {
-    if (exact_position_ != position) {
-      Statistics unused;
-      exact_.set_up(VertexOf(draw_, position, 0), VertexOf(draw_, position, 1), VertexOf(draw_, position, 2), unused);
-      exact_position_ = position;
-    }
-    return exact_;
-  }
-
   void Store(std::uint32_t position, float z, std::size_t offset) {
     if (kWinner) canvas_.winner[offset] = job_.first_ordinal + position;
     if (draw_.depth_write) canvas_.depth[offset] = z;
@@ -291,10 +272,7 @@ class FragmentWriter {
   float near_ = 0, far_ = 1;
   std::uint32_t* marked_ = nullptr;  // blocks whose mask is not 0
   std::size_t marked_size_ = 0;
-  Triangle exact_;
-  std::uint32_t exact_position_ = kNoTriangle;
-  SnappedTriangle snapped_;
-  std::uint32_t snapped_position_ = kNoTriangle;
+  ExactDraw exact_;
 };
 
 }  // namespace surefill::fast::HWY_NAMESPACE

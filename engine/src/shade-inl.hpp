@@ -13,10 +13,9 @@
 #include <cstring>
 
 #include "canvas.hpp"
-#include "grid.hpp"
+#include "exact_draw.hpp"
 #include "hwy/cache_control.h"
 #include "hwy/highway.h"
-#include "triangle.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
@@ -109,7 +108,6 @@ class Shader {
           winner_ = winner;
           draw_ = DrawOf(winner, draw_);
           position_ = winner - job_.jobs[draw_].first_ordinal;
-          exact_ready_ = snapped_ready_ = false;
           seen_ = &seen_triangles_[winner % kSeen];
           if (seen_->winner != winner) SetUp(winner);
         }
@@ -195,23 +193,16 @@ class Shader {
   SamplePosition PositionOf(int x, int y) {
     const SamplePosition centre{x + 0.5, y + 0.5};
     if (target_.samples == 1) return centre;
-    if (target_.attribute_location == AttributeLocation::centre && HasValues(centre)) return centre;
-    if (Covers(centre)) return centre;
+    if (target_.attribute_location == AttributeLocation::centre && Exact().has_values(centre)) return centre;
+    const TieShift shift = job_.jobs[draw_].shift;
+    Statistics unused;
+    if (Exact().covers(centre, shift, unused)) return centre;
     for (int n = 0; n < target_.samples; ++n) {
       const SampleLocation location = sample_location(target_.samples, n);
       const SamplePosition p{x + location.x / 16.0, y + location.y / 16.0};
-      if (Covers(p)) return p;
+      if (Exact().covers(p, shift, unused)) return p;
     }
     return centre;  // not reached: the triangle is seen at a sample of this pixel
-  }
-  bool HasValues(SamplePosition p) {
-    Statistics unused;
-    return draw().grid ? Snapped().has_weights(p, unused) : Exact().plane_in_front(p);
-  }
-  bool Covers(SamplePosition p) {
-    const TieShift shift = job_.jobs[draw_].shift;
-    Statistics unused;
-    return draw().grid ? Snapped().winding(p, shift) != 0 : Exact().covers(p, shift, unused);
   }
 
   // Grid: do all E_i surely have D's sign at p? Then none of them counts as 0 (G2).
@@ -225,7 +216,7 @@ class Shader {
     return true;
   }
 
-  void Values(SamplePosition p, std::size_t s) {
+  HWY_INLINE void Values(SamplePosition p, std::size_t s) {
     const D d;
     const F df;
     const bool exactly = draw().grid && !AllEdgesCount(p);
@@ -240,7 +231,7 @@ class Shader {
       if (HWY_UNLIKELY(exactly)) {
         for (std::uint32_t c = 0; c < out.components; ++c) {
           const float u[3] = {ValueOf(out, 0, c), ValueOf(out, 1, c), ValueOf(out, 2, c)};
-          values[c] = Snapped().attribute(p, u, planes.interpolation, statistics_);
+          values[c] = Exact().attribute(p, u, planes.interpolation, statistics_);
         }
         continue;
       }
@@ -269,7 +260,7 @@ class Shader {
       }
       unknown &= (1u << out.components) - 1;
       statistics_.values_by_filter += out.components - static_cast<std::uint32_t>(__builtin_popcount(unknown));
-      for (std::uint32_t c = 0; c < out.components; ++c) values[c] = nearest[c];
+      CopyComponents(nearest, out.components, values);
       for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
         const auto c = static_cast<std::uint32_t>(__builtin_ctz(unknown));
         const float u[3] = {ValueOf(out, 0, c), ValueOf(out, 1, c), ValueOf(out, 2, c)};
@@ -277,25 +268,23 @@ class Shader {
       }
     }
   }
+  // Sizes that the compiler knows: a call of memcpy would cost as much as the rest.
+  static HWY_INLINE void CopyComponents(const float* from, std::uint32_t components, float* to) {
+    if (components == 4) {
+      std::memcpy(to, from, 4 * sizeof(float));
+    } else if (components == 3) {
+      std::memcpy(to, from, 3 * sizeof(float));
+    } else {
+      to[0] = from[0];
+      if (components == 2) to[1] = from[1];
+    }
+  }
   static constexpr float kLargestFloatAsFloat = std::numeric_limits<float>::max();
 
-  Triangle& Exact() {
-    if (!exact_ready_) {
-      Statistics unused;
-      exact_.set_up(draw().vertices[IndexOf(0)], draw().vertices[IndexOf(1)], draw().vertices[IndexOf(2)], unused);
-      exact_ready_ = true;
-    }
+  // The triangle at hand.
+  ExactDraw& Exact() {
+    exact_.use(draw(), position_);
     return exact_;
-  }
-
-  SnappedTriangle& Snapped() {
-    if (!snapped_ready_) {
-      Statistics unused;
-      snapped_.set_up(draw().vertices[IndexOf(0)], draw().vertices[IndexOf(1)], draw().vertices[IndexOf(2)],
-                      *draw().grid, unused);
-      snapped_ready_ = true;
-    }
-    return snapped_;
   }
 
   const ShadeJob& job_;
@@ -317,9 +306,7 @@ class Shader {
   Seen* seen_ = nullptr;
   std::uint32_t winner_ = kNoTriangle, position_ = 0;
   std::size_t draw_ = 0;
-  Triangle exact_;
-  SnappedTriangle snapped_;
-  bool exact_ready_ = false, snapped_ready_ = false;
+  ExactDraw exact_;
 };
 
 void Shade(const ShadeJob& job, const Canvas& canvas, int y0, int y1, Statistics& statistics) {

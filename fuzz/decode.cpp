@@ -424,10 +424,6 @@ Scene decode_paths(std::span<const std::uint8_t> bytes) {
   while (scene.width * scene.height * scene.samples > kMostPathSamples) scene.samples /= 2;
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
-  for (SceneDraw& draw : scene.draws) {
-    draw.grid.reset();
-    draw.conservative = Conservative::none;
-  }
   return scene;
 }
 
@@ -439,9 +435,6 @@ std::optional<Bytes> encode_paths(const Scene& scene) {
   if (scene.width > kLargeSide && scene.height > kLargeSide) return std::nullopt;
   if (width > 7 || height > 7 || scene.initial_depth.size() > 1) return std::nullopt;
   if (scene.samples > 16 || scene.width * scene.height * scene.samples > kMostPathSamples) return std::nullopt;
-  for (const SceneDraw& draw : scene.draws) {
-    if (draw.grid || draw.conservative != Conservative::none) return std::nullopt;
-  }
   Scene inner = scene;
   inner.width = inner.height = 1;
   std::optional<Bytes> bytes = encode_scene(inner);

@@ -90,9 +90,10 @@ std::optional<Bytes> encode_samples(const corpus::Scene& scene);
 //   0  bits 0-2 width, 3-5 height: kPathSides of them; if both are over 32, the height is 16, for speed
 //   1  bits 0-3 the instruction set, by its number among those of this machine, 4-7 threads: 13, 14, 15 mean 2, 3, 8,
 //      the others one
-//   2  bits 0-2: no count, index, depth; all of bits 3-4 set: barycentrics and attributes, too
-//   3  a scene; its size, grid, conservative mode and all of its initial depths but one are ignored, and its samples
-//      are halved until at most kMostPathSamples are drawn, but not below two
+//   2  bits 0-2: no count, index, depth; all of bits 3-4 set: barycentrics and attributes, too (a scene with a
+//      conservative draw has counts alone); bits 5-7: 7 streams the coverage, too, 6 gives the threads of an executor
+//   3  a scene; its size and all of its initial depths but one are ignored, and its samples are halved until at most
+//      kMostPathSamples are drawn, but not below two
 inline constexpr int kPathSides[8] = {16, 8, 20, 32, 65, 72, 129, 136};
 inline constexpr int kMostPathSamples = 136 * 32 * 2;
 inline constexpr std::size_t kPathPrefix = 3;

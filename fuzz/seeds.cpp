@@ -54,14 +54,10 @@ constexpr std::size_t kTrianglesOfScene = 8;
 // Fewer make no closed mesh.
 constexpr std::size_t kMeshVertices = 5;
 
-// The scene as the fast path can have it: without the state that it leaves to the reference path, on the next larger
-// target of the form.
+// The scene on the next larger target of the form, drawn on the best instruction set, and once more on another one,
+// with other numbers of threads and outputs.
 void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) {
   if (scene.draws.empty()) return;
-  for (corpus::SceneDraw& draw : scene.draws) {
-    draw.grid.reset();
-    draw.conservative = Conservative::none;
-  }
   const auto next_larger = [](int side) {
     int best = 0;
     for (const int candidate : kPathSides) {
@@ -74,7 +70,12 @@ void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) 
   while (scene.samples > 1 && scene.width * scene.height * scene.samples > kMostPathSamples) scene.samples /= 2;
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
-  if (const std::optional<Bytes> bytes = encode_paths(scene)) seeds.add("paths", name, *bytes);
+  std::optional<Bytes> bytes = encode_paths(scene);
+  if (!bytes) return;
+  const std::size_t number = seeds.count("paths") / 2;
+  seeds.add("paths", name, *bytes);
+  (*bytes)[1] = static_cast<std::uint8_t>(number), (*bytes)[2] = static_cast<std::uint8_t>(37 * number);
+  seeds.add("paths", name + "-otherwise", *bytes);
 }
 
 // A mesh over the vertices of a small scene, as text.

@@ -25,6 +25,7 @@ namespace surefill::bench {
 namespace {
 
 enum class Output { count, depth, visibility, attributes };
+enum class Mode { plain, grid, over };  // over: conservative, counts alone
 constexpr std::size_t kSamples = std::size_t{kWidth} * kHeight;
 
 int threads() {
@@ -42,6 +43,8 @@ const Workload& workload(const std::string& name) {
     held = make_workload(name[1] - '0', placement == "snapped"   ? Placement::snapped
                                         : placement == "aligned" ? Placement::aligned
                                                                  : Placement::free);
+  } else if (name[0] == 's' && name[1] == 'p') {
+    held = make_spot(std::atoi(placement.c_str()));
   } else {
     held = make_small_triangles(std::strtoull(placement.c_str(), nullptr, 10));
   }
@@ -60,7 +63,8 @@ void count_triangles(benchmark::State& state, const Workload& work) {
   state.counters["triangles"] = static_cast<double>(work.indices.size() / 3);
 }
 
-void surefill_draws(benchmark::State& state, const std::string& name, Output output, Options options) {
+void surefill_draws(benchmark::State& state, const std::string& name, Output output, Options options,
+                    Mode mode = Mode::plain) {
   const Workload& work = workload(name);
   std::vector<std::uint32_t> count(output == Output::count ? kSamples : 0);
   std::vector<std::uint32_t> index(output >= Output::visibility ? kSamples : 0);
@@ -71,6 +75,8 @@ void surefill_draws(benchmark::State& state, const std::string& name, Output out
   target.count = count, target.index = index, target.depth = depth;
   Draw triangles;
   triangles.vertices = work.vertices, triangles.indices = work.indices;
+  if (mode == Mode::grid) triangles.grid = Grid{};
+  if (mode == Mode::over) triangles.conservative = Conservative::over;
   AttributeTarget attribute_target{shaded, 4};
   AttributeArray attribute;
   if (output == Output::attributes) {
@@ -157,13 +163,23 @@ void add_all() {
       add(name + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
       add(name + "/attributes/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, true); });
       if (!one) continue;
+      add(name + "/depth/grid", [=](State& state) { surefill_draws(state, name, Output::depth, options, Mode::grid); });
+      add(name + "/count/conservative",
+          [=](State& state) { surefill_draws(state, name, Output::count, options, Mode::over); });
       add(name + "/depth/inexact-depth",
           [=](State& state) { inexact_draws(state, name, surefill_bench_inexact_depth); });
       add(name + "/depth/AVX2", [=](State& state) { target_draws(state, name, HWY_AVX2); });
     }
   }
   if (!one) return;
-  for (const char* const size : {"10000", "100000", "1000000", "10000000"}) {
+  for (const char* const height : {"135", "270", "540", "1080"}) {
+    const std::string name = std::string("spot/") + height;
+    add(name + "/depth/surefill", [=](State& state) { surefill_draws(state, name, Output::depth, options); });
+    add(name + "/attributes/surefill", [=](State& state) { surefill_draws(state, name, Output::attributes, options); });
+    add(name + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
+    add(name + "/attributes/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, true); });
+  }
+  for (const char* const size : {"1000", "10000", "100000", "1000000", "10000000"}) {
     const std::string name = std::string("small/") + size;
     add(name + "/depth/surefill", [=](State& state) { surefill_draws(state, name, Output::depth, options); });
   }

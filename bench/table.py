@@ -94,6 +94,17 @@ def text_of(table, one, two):
         lines.append(f"{what:60} {wanted:12} " + " ".join(f"{cell:>8}" for cell in cells))
     lines.append("(- behind a number: not what is wanted)")
     lines.append("")
+    for output in ("depth", "attributes"):
+        spot = {h: one[f"spot/{h}/{output}/llvmpipe"][0] / one[f"spot/{h}/{output}/surefill"][0]
+                for h in (135, 270, 540, 1080) if f"spot/{h}/{output}/llvmpipe" in one}
+        if spot:
+            lines.append(f"spot, {output}, against llvmpipe: " + ", ".join(f"{h} pixels high {r:.1f} x" for h, r in spot.items()))
+    for what, above, below in (
+            ("Grid of 8 bits, times the time without", "depth/grid", "depth/surefill"),
+            ("conservative counts, times the time of counts", "count/conservative", "count/surefill")):
+        cells = {w: one[f"{w}/{above}"][0] / one[f"{w}/{below}"][0] for w in WORKLOADS if f"{w}/{above}" in one}
+        if cells:
+            lines.append(f"{what}: " + ", ".join(f"{w} {r:.2f}" for w, r in cells.items()))
     per = sizes(one)
     if per:
         lines.append("ns a triangle of 10 pixels: " + ", ".join(f"{n:,}: {ns:.0f}" for n, ns in sorted(per.items())))

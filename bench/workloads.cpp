@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "certify/mesh.hpp"
+
 namespace surefill::bench {
 namespace {
 
@@ -149,6 +151,17 @@ Workload make_workload(int number, Placement placement) {
 Workload make_small_triangles(std::size_t triangles) {
   Workload workload = random_triangles(triangles, 10, Placement::free);
   workload.name = "10 px x " + std::to_string(triangles);
+  return workload;
+}
+
+Workload make_spot(int height) {
+  static const meshes::Mesh mesh = meshes::load_obj(SUREFILL_MESHES "/spot.obj");
+  const int width = height * kWidth / kHeight;
+  const corpus::Frame frame(meshes::mesh_scene(mesh, meshes::framing_camera(mesh, width, height), width, height));
+  const Draw& draw = frame.draws()[0];
+  Workload workload;
+  workload.vertices.assign(draw.vertices.begin(), draw.vertices.end());
+  workload.indices.assign(draw.indices.begin(), draw.indices.end());
   return workload;
 }
 

@@ -16,6 +16,10 @@ if(surefill_type STREQUAL STATIC_LIBRARY)
     set(surefill_link_flags "-lhwy -pthread ${surefill_link_flags}")
   endif()
 endif()
+if(SUREFILL_TBB)
+  install(TARGETS surefill_tbb EXPORT surefill FILE_SET HEADERS DESTINATION ${CMAKE_INSTALL_INCLUDEDIR} COMPONENT engine)
+  string(APPEND surefill_dependencies "\nfind_dependency(TBB)")
+endif()
 file(RELATIVE_PATH surefill_pc_prefix /p/${CMAKE_INSTALL_LIBDIR}/pkgconfig /p)  # so that the tree can be moved
 set(surefill_pc_dirs "includedir=\${prefix}/${CMAKE_INSTALL_INCLUDEDIR}\nlibdir=\${prefix}/${CMAKE_INSTALL_LIBDIR}")
 

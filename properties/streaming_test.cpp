@@ -19,6 +19,10 @@
 #include "properties/generators.hpp"
 #include "surefill/surefill.hpp"
 
+#if defined(SUREFILL_TBB)
+#include "surefill/tbb.hpp"
+#endif
+
 namespace surefill::properties {
 namespace {
 
@@ -153,9 +157,7 @@ void run_backwards(void* context, std::size_t items, void (*task)(void*, std::si
   }).join();
 }
 
-TEST(Executor, ChangesNothing) {
-  std::size_t items = 0;
-  const Options options{.threads = 3, .executor = {run_backwards, &items}};
+void expect_nothing_changes(const Options& options) {
   const Renderer with_executor = [&](const Target& target, std::span<const Draw> draws) {
     return render(target, draws, nullptr, options);
   };
@@ -169,10 +171,21 @@ TEST(Executor, ChangesNothing) {
       ASSERT_EQ(result.differences, 0u) << category.name << ", seed " << seed << '\n' << corpus::write_scene(scene);
     }
   }
+}
+
+TEST(Executor, ChangesNothing) {
+  std::size_t items = 0;
+  expect_nothing_changes({.threads = 3, .executor = {run_backwards, &items}});
 #if !defined(SUREFILL_REFERENCE_ONLY)
   EXPECT_GT(items, 1000u) << "the executor was not asked";
 #endif
 }
+
+#if defined(SUREFILL_TBB)
+TEST(Executor, MayBeOneTbb) {
+  expect_nothing_changes({.threads = 3, .executor = tbb_executor()});
+}
+#endif
 
 // Eight corners whose hull is that of the draw's vertices; for more than eight vertices none.
 std::optional<std::array<Vertex, 8>> own_corners(const corpus::SceneDraw& draw) {

@@ -44,7 +44,11 @@ class Shader {
       for (int x = 0; x < target_.width; x += 8) {
         Prefetch(x + 8, y, rows, false);
         Prefetch(x + 16, y, rows, true);
-        Block(x, y, rows);
+        if (IsUntouched(x, y)) {
+          for (int row = y; row < y + rows; ++row) ClearRow(x, row);
+        } else {
+          Block(x, y, rows);
+        }
       }
     }
   }
@@ -73,6 +77,7 @@ class Shader {
   // The triangles of a block lie anywhere in memory: their indices are asked for two blocks ahead, their vertices one.
   // (Inlined: g++ drops calls of functions that only prefetch.)
   HWY_INLINE void Prefetch(int x0, int y0, int rows, bool indices) {
+    if (x0 >= target_.width || IsUntouched(x0, y0)) return;
     std::uint32_t last = kNoTriangle;
     std::size_t draw = draw_;
     for (int y = y0; y < y0 + rows; ++y) {
@@ -94,11 +99,12 @@ class Shader {
 
   void Block(int x0, int y0, int rows) {
     for (int y = y0; y < y0 + rows; ++y) {
+      if (IsEmptyRow(x0, y)) {
+        ClearRow(x0, y);
+        continue;
+      }
       for (int x = x0; x < std::min(x0 + 8, target_.width); ++x) {
-        const std::size_t s =
-            (static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) + static_cast<std::size_t>(x)) *
-                static_cast<std::size_t>(target_.samples) +
-            job_.sample_number;
+        const std::size_t s = SampleIndex(x, y);
         const std::uint32_t winner = canvas_.winner[canvas_.offset_of(x, y)];
         if (winner == kNoTriangle) {
           Clear(s);
@@ -123,9 +129,34 @@ class Shader {
     return guess;
   }
 
+  std::size_t SampleIndex(int x, int y) const {
+    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) + static_cast<std::size_t>(x)) *
+               static_cast<std::size_t>(target_.samples) +
+           job_.sample_number;
+  }
+  bool IsUntouched(int x, int y) const { return canvas_.untouched[canvas_.tile_of(x, y)] != 0; }
+  // Nothing is seen in a row of a block.
+  bool IsEmptyRow(int x, int y) const {
+    std::uint64_t winners[4];
+    std::memcpy(winners, canvas_.winner + canvas_.offset_of(x, y), 16);
+    std::memcpy(winners + 2, canvas_.winner + canvas_.offset_of(x + 4, y), 16);
+    return (winners[0] & winners[1] & winners[2] & winners[3]) == ~std::uint64_t{0};
+  }
+
   void Clear(std::size_t s) const {
     for (std::size_t k = 0; k < count_; ++k) {
       for (std::uint32_t c = 0; c < outputs_[k].components; ++c) outputs_[k].values[s * outputs_[k].components + c] = 0;
+    }
+  }
+  void ClearRow(int x0, int y) const {
+    const int x1 = std::min(x0 + 8, target_.width);
+    if (target_.samples > 1) {
+      for (int x = x0; x < x1; ++x) Clear(SampleIndex(x, y));
+      return;
+    }
+    for (std::size_t k = 0; k < count_; ++k) {
+      const std::size_t components = outputs_[k].components, n = static_cast<std::size_t>(x1 - x0) * components;
+      std::fill_n(outputs_[k].values + SampleIndex(x0, y) * components, n, 0.0f);
     }
   }
 

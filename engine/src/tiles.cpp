@@ -260,7 +260,6 @@ class Renderer {
     for (int x = 0; x < target_.width; x += kTileSize) {
       const std::size_t tile = canvas_.tile_of(x, band * kTileSize);
       const Columns columns{x, std::min(x + kTileSize, target_.width)};
-      if (canvas_.untouched[tile] != 0 && shading_) touch(tile);
       for (int y = band * kTileSize; y < y1; ++y) {
         if (canvas_.untouched[tile] != 0) {
           store_empty(y, columns);
@@ -282,12 +281,22 @@ class Renderer {
 
   void store_empty(int y, Columns columns) const {
     const auto samples = static_cast<std::size_t>(target_.samples);
-    const std::size_t begin = sample_index(columns.begin, y), end = sample_index(columns.end, y);
+    const std::size_t begin = sample_index(columns.begin, y);
+    const auto n = static_cast<std::size_t>(columns.end - columns.begin);
     const float far = (greater_ ? -1 : 1) * std::numeric_limits<float>::infinity();
-    for (std::size_t at = begin; at < end; at += samples) {
+    const bool initial = !target_.initial_depth.empty();
+    if (samples == 1) {
+      if (!target_.count.empty()) std::fill_n(&target_.count[begin], n, 0u);
+      if (!target_.index.empty()) std::fill_n(&target_.index[begin], n, kNoTriangle);
+      if (!target_.depth.empty() && !initial) std::fill_n(&target_.depth[begin], n, far);
+      if (!target_.depth.empty() && initial)
+        std::memmove(&target_.depth[begin], &target_.initial_depth[begin], n * sizeof(float));
+      return;
+    }
+    for (std::size_t at = begin; at < begin + n * samples; at += samples) {
       if (!target_.count.empty()) target_.count[at] = 0;
       if (!target_.index.empty()) target_.index[at] = kNoTriangle;
-      if (!target_.depth.empty()) target_.depth[at] = target_.initial_depth.empty() ? far : target_.initial_depth[at];
+      if (!target_.depth.empty()) target_.depth[at] = initial ? target_.initial_depth[at] : far;
     }
   }
 

@@ -143,13 +143,13 @@ class Rasterizer {
   HWY_INLINE void Prefetch(const Batch& batch) const {
     for (std::uint32_t small = batch.live & batch.small; small != 0; small &= small - 1) {
       const auto lane = static_cast<std::size_t>(__builtin_ctz(small));
-      for (int y = batch.first_y[lane] & ~3; y <= batch.last_y[lane]; y += 4) {
-        if (!bands_.owns(y >> kTileLog2)) continue;
-        for (int x = batch.first_x[lane] & ~3; x <= batch.last_x[lane]; x += 4) {
-          const std::size_t offset = canvas_.offset_of(x, y);
-          hwy::Prefetch(canvas_.depth + offset);
-          if (kWinner) hwy::Prefetch(canvas_.winner + offset);
-        }
+      // The corners of the box: all its cells, if it is at most two cells wide and high.
+      const int x[2] = {batch.first_x[lane], batch.last_x[lane]}, y[2] = {batch.first_y[lane], batch.last_y[lane]};
+      for (std::size_t i = 0; i < 4; ++i) {
+        const std::size_t offset =
+            std::size_t{canvas_.column[x[i & 1] >> kCellLog2]} + canvas_.row[y[i >> 1] >> kCellLog2];
+        hwy::Prefetch(canvas_.depth + offset);
+        if (kWinner) hwy::Prefetch(canvas_.winner + offset);
       }
     }
   }

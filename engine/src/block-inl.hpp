@@ -353,7 +353,9 @@ class Rasterizer {
               hn::Add(hn::Mul(hn::Set(d, slot.z_x), dx), hn::Set(d, slot.z_y * (ty - slot.origin_y) + (slot.z + dip))),
               hn::Set(d, slot.z_most));
           const auto far = hn::PromoteTo(d, hn::LoadU(df, canvas_.tile_far + canvas_.tile_of(tx, ty)));
-          possible = hn::AndNot(writer_.with_identifiers ? hn::Gt(nearest, far) : hn::Ge(nearest, far), possible);
+          possible = hn::AndNot(writer_.with_identifiers ? hn::Gt(hn::PromoteTo(d, hn::DemoteTo(df, nearest)), far)
+                                                         : hn::Ge(nearest, far),
+                                possible);
         }
         for (std::uint32_t tiles = Bits(d, possible); tiles != 0; tiles &= tiles - 1) {
           const auto n = static_cast<std::size_t>(__builtin_ctz(tiles));
@@ -446,7 +448,8 @@ class Rasterizer {
     return blocks != 0;
   }
   // Which of an area's four blocks may hold something farther than the triangle: bit 0 the upper left one, then to the
-  // right, then below. dips: from the depth at the area's first sample to less than any in each block.
+  // right, then below; depths that are equal once they are rounded may leave a smaller identifier in front. dips: from
+  // the depth at the area's first sample to less than any in each block.
   HWY_INLINE std::uint32_t VisibleBlocks(const Slot& slot, double z, const double (&dips)[4], const float* far,
                                          std::size_t below) const {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
@@ -455,12 +458,16 @@ class Rasterizer {
     const hn::CappedTag<float, 2> row;
     const auto nearest = hn::Min(hn::Add(hn::Set(d, z), hn::Load(d, dips)), hn::Set(d, slot.z_most));
     const auto there = hn::PromoteTo(d, hn::Combine(df, hn::LoadU(row, far + below), hn::LoadU(row, far)));
-    return ~Bits(d, writer_.with_identifiers ? hn::Gt(nearest, there) : hn::Ge(nearest, there)) & 15;
+    const auto hidden =
+        writer_.with_identifiers ? hn::Gt(hn::PromoteTo(d, hn::DemoteTo(df, nearest)), there) : hn::Ge(nearest, there);
+    return ~Bits(d, hidden) & 15;
 #else
     std::uint32_t visible = 0;
     for (std::size_t i = 0; i < 4; ++i) {
       const double nearest = std::min<double>(z + dips[i], slot.z_most), there = far[(i >> 1) * below + (i & 1)];
-      visible |= static_cast<std::uint32_t>(!(writer_.with_identifiers ? nearest > there : nearest >= there)) << i;
+      visible |= static_cast<std::uint32_t>(
+                     !(writer_.with_identifiers ? static_cast<float>(nearest) > there : nearest >= there))
+                 << i;
     }
     return visible;
 #endif

@@ -113,11 +113,11 @@ TEST_F(Adapter, WhateverAProgramDoesIsAFinding) {
     EXPECT_EQ(certify("--time-limit 0.1 --command '" + std::string(program) + "'"), 1) << program << "\n" << out;
     EXPECT_TRUE(says("NOT CERTIFIED")) << program << "\n" << out;
   }
-  const std::string answer = "answer = INFO if kind == 1 else draw(body)";
+  const std::string answer = "answer = INFO if header[0] == 1 else draw(body)";
   const std::pair<const char*, const char*> faults[] = {
-      {"; kind == 2 and body[4] > 9 and sys.exit(3)", "ended with status 3"},
-      {"; answer = answer[:-4] if kind == 2 else answer", "words where"},
-      {"; kind == 2 and body[4] > 9 and sys.stdin.read()", "gave no answer within 0.5 s"},
+      {"; header[0] == 2 and body[4] > 9 and sys.exit(3)", "ended with status 3"},
+      {"; answer = answer[:-4] if header[0] == 2 else answer", "words where"},
+      {"; header[0] == 2 and body[4] > 9 and sys.stdin.read()", "gave no answer within 0.5 s"},
   };
   for (const auto& [fault, finding] : faults) {
     EXPECT_EQ(certify("--time-limit 0.5 --only alone,model " + python_with(answer, answer + fault)), 1) << out;

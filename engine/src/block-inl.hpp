@@ -48,9 +48,9 @@ class Rasterizer {
  private:
   // The triangles of some lanes, in order.
   HWY_INLINE void Lanes(std::uint32_t lanes) {
+    if (!bands_.all) lanes &= OwnedLanes();
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
-      if (!bands_.all && !OwnsOne(lane)) continue;
       if ((batch_->small >> lane & 1) != 0) {
         Touch(lane);
         Small(lane);
@@ -130,12 +130,18 @@ class Rasterizer {
     return job_.draw->cull == (front ? Cull::front : Cull::back);
   }
 
-  bool OwnsOne(std::uint32_t lane) const {
-    const int first = batch_->first_y[lane] >> kTileLog2, last = batch_->last_y[lane] >> kTileLog2;
-    for (int band = first; band <= last; ++band) {
-      if (bands_.owns(band)) return true;
+  // The lanes that may reach a band of this set. Without a branch for each: whose a triangle is cannot be guessed.
+  std::uint32_t OwnedLanes() const {
+    std::uint32_t owned = 0;
+    for (std::uint32_t lane = 0; lane < kBatch; ++lane) {
+      const auto first = static_cast<std::uint32_t>(batch_->first_y[lane]) >> kTileLog2,
+                 last = static_cast<std::uint32_t>(batch_->last_y[lane]) >> kTileLog2;
+      const auto reaches = [this](std::uint32_t band) {
+        return static_cast<std::uint32_t>(bands_.owned[band >> 6 & 3] >> (band & 63)) & 1;
+      };
+      owned |= (reaches(first) | reaches(last) | static_cast<std::uint32_t>(last - first > 1)) << lane;
     }
-    return false;
+    return owned;
   }
 
   // Small triangles lie anywhere: their cells are asked for a batch ahead. (Inlined: g++ drops calls of functions that

@@ -134,6 +134,93 @@ std::vector<std::int64_t> targets() {
 INSTANTIATE_TEST_SUITE_P(Paths, OnTarget, testing::ValuesIn(targets()),
                          [](const auto& name) { return std::string(hwy::TargetName(name.param)); });
 
+// Everything that may happen to a triangle on its way is reached, as the engine's own counters say, and gives the
+// reference path's image: each class of size in each lane of a batch, clipped triangles, each rung of the ladder.
+class Reach : public OnTarget {
+ protected:
+  // Draws on both paths, expects one image, and returns the fast path's counters.
+  Statistics draw(const corpus::Scene& scene) {
+    Statistics statistics;
+    std::string reference;
+    const Renderer fast = [&](const Target& target, std::span<const Draw> draws) {
+      return render(target, draws, &statistics);
+    };
+    const Comparison result = compare(scene, on_path({.path = Path::reference}, &reference), fast, outputs_of(scene));
+    EXPECT_EQ(result.differences, 0u) << corpus::write_scene(scene);
+    EXPECT_STREQ(statistics.path, hwy::TargetName(GetParam()));
+    return statistics;
+  }
+  static corpus::Scene empty_scene(int size) {
+    corpus::Scene scene;
+    scene.width = scene.height = size;
+    scene.draws.emplace_back();
+    return scene;
+  }
+  static void add(corpus::SceneDraw& draw, float x, float y, float size, float w = 1) {
+    const auto first = static_cast<std::uint32_t>(draw.vertices.size());
+    draw.vertices.push_back({x, y, 0.25f, 1, {}});
+    draw.vertices.push_back({x + size, y + size / 4, 0.5f, 1, {}});
+    draw.vertices.push_back({(x + size / 3) * w, (y + size) * w, 0.75f, w, {}});
+    draw.triangles.push_back({{first, first + 1, first + 2}, {}});
+  }
+};
+
+TEST_P(Reach, EveryClassInEveryLane) {
+  for (std::uint32_t lane = 0; lane < 8; ++lane) {
+    for (const float size : {1.5f, 3.0f, 7.0f, 13.0f, 40.0f, 55.0f, 90.0f, 190.0f}) {
+      corpus::Scene scene = empty_scene(200);
+      // The lanes before are empty: behind the eye, or beyond the target.
+      for (std::uint32_t n = 0; n < lane; ++n) add(scene.draws[0], 300, 300, 10);
+      add(scene.draws[0], 1.3f, 1.7f, size);
+      const Statistics s = draw(scene);
+      const std::uint64_t small = size<14, medium = size> 14 && size<60, large = size> 60;
+      EXPECT_EQ(s.rasterized, 1u) << lane << ' ' << size;
+      EXPECT_EQ(s.small, small) << lane << ' ' << size;
+      EXPECT_EQ(s.medium, medium) << lane << ' ' << size;
+      EXPECT_EQ(s.large, large) << lane << ' ' << size;
+    }
+  }
+}
+
+TEST_P(Reach, ClippedTrianglesInEveryLane) {
+  for (std::uint32_t lane = 0; lane < 8; ++lane) {
+    for (const float w : {-1.0f, 0.0f, 1e-6f}) {
+      corpus::Scene scene = empty_scene(100);
+      scene.draws[0].grid = Grid{};
+      for (std::uint32_t n = 0; n < lane; ++n) add(scene.draws[0], 300, 300, 10);
+      add(scene.draws[0], 20, 30, 50, w);
+      if (w >= 0) scene.draws[0].vertices.back().x = scene.draws[0].vertices.back().y = 30;
+      const Statistics s = draw(scene);
+      EXPECT_EQ(s.clipped, 1u) << lane << ' ' << w;
+      EXPECT_EQ(s.small + s.medium + s.large, 0u) << lane << ' ' << w;
+    }
+  }
+}
+
+TEST_P(Reach, EveryRungOfTheLadder) {
+  Statistics sum;
+  for (const Category& category : categories()) {
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+      const Statistics s = draw(fast_scene(category, seed, 40, 6));
+      sum.signs_by_filter += s.signs_by_filter;
+      sum.signs_by_residual += s.signs_by_residual;
+      sum.signs_by_expansion += s.signs_by_expansion;
+      sum.values_by_filter += s.values_by_filter;
+      sum.values_by_expansion += s.values_by_expansion;
+      sum.dropped += s.dropped, sum.degenerate += s.degenerate, sum.culled += s.culled, sum.outside += s.outside;
+      EXPECT_EQ(s.triangles, s.dropped + s.degenerate + s.culled + s.outside + s.rasterized);
+    }
+  }
+  for (const std::uint64_t reached :
+       {sum.signs_by_filter, sum.signs_by_residual, sum.signs_by_expansion, sum.values_by_filter,
+        sum.values_by_expansion, sum.dropped, sum.degenerate, sum.culled, sum.outside}) {
+    EXPECT_GT(reached, 0u);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, Reach, testing::ValuesIn(targets()),
+                         [](const auto& name) { return std::string(hwy::TargetName(name.param)); });
+
 // More triangles than one chunk takes, in several draws: the image is kept between chunks.
 TEST(Paths, ChunksKeepTheImage) {
   corpus::Scene scene;

@@ -358,6 +358,10 @@ void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& 
   statistics.degenerate += ones(found.degenerate);
   statistics.culled += ones(found.culled);
   statistics.rasterized += ones(found.reached & ~found.degenerate & ~found.culled);
+  statistics.small += ones(batch.live & batch.small);
+  statistics.medium += ones(batch.live & batch.medium & ~batch.small);
+  statistics.large += ones(batch.live & ~batch.medium & ~batch.small);
+  statistics.clipped += ones(batch.clipped);
 }
 
 }  // namespace surefill::fast::HWY_NAMESPACE

@@ -142,6 +142,10 @@ class Renderer {
     sum.culled += part.culled;
     sum.outside += part.outside;
     sum.rasterized += part.rasterized;
+    sum.small += part.small;
+    sum.medium += part.medium;
+    sum.large += part.large;
+    sum.clipped += part.clipped;
     sum.skipped_draws += part.skipped_draws;
   }
   static void add_rungs(Statistics& sum, const Statistics& part) {

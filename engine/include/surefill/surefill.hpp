@@ -198,6 +198,9 @@ struct Statistics {
   std::uint64_t culled = 0;      // by facing [F2]
   std::uint64_t outside = 0;  // no sample of the target lies in its screen box (the fast path looks at this before D)
   std::uint64_t rasterized = 0;  // the rest
+  // Of the rest, on the fast path, by the box of samples that can be covered: within 4 x 4 cells of 4 x 4 samples,
+  // within 8 x 8 blocks of 8 x 8, larger; and those that Grid clips.
+  std::uint64_t small = 0, medium = 0, large = 0, clipped = 0;
 
   // Signs of edge functions and of D by the rung of the ladder that settled them; on the fast path, of edge functions
   // only where its integers were uncertain.

@@ -30,8 +30,8 @@ corpus::Scene any_scene(const Category& category, std::uint64_t seed, int size, 
   SceneLimits limits;
   limits.max_size = size;
   limits.max_triangles = triangles;
-  limits.samples = seed % 3 == 0;
-  limits.grid = seed % 3 == 1;
+  limits.samples = (seed & 1) != 0;
+  limits.grid = (seed & 2) != 0;
   limits.conservative = seed % 3 == 2;
   return random_scene(category, seed, limits);
 }
@@ -196,7 +196,7 @@ std::optional<std::array<Vertex, 8>> own_corners(const corpus::SceneDraw& draw) 
       used.push_back({vertex.x, vertex.y, vertex.z, vertex.w});
     }
   }
-  if (used.empty() || used.size() > 8) return std::nullopt;
+  if (used.empty() || used.size() > 8 || draw.viewport) return std::nullopt;  // the box is in pixels
   std::array<Vertex, 8> corners;
   for (std::size_t i = 0; i < 8; ++i) corners[i] = used[i % used.size()];
   return corners;
@@ -239,7 +239,7 @@ TEST(CullingBoxes, SkipDrawsAndChangeNothing) {
     }
   }
 #if !defined(SUREFILL_REFERENCE_ONLY)
-  EXPECT_GT(skipped, 1000u) << "boxes were not looked at";
+  EXPECT_GT(skipped, 500u) << "boxes were not looked at";
 #endif
 }
 

@@ -9,7 +9,8 @@
 
 #include "certify/adapter.h"
 
-enum { kBits = 8, kOne = 1 << kBits, kFarthest = 1 << 14 };
+enum { kBits = 8, kOne = 1 << kBits };
+static const double kFarthest = 1 << 14; /* pixels */
 
 typedef struct {
   int64_t x, y; /* 8 fraction bits */
@@ -37,8 +38,8 @@ static int inside(const Corner c[3], Corner s) {
 static int project(const float* v, Corner* corner) {
   const double x = (double)v[0] / v[3], y = (double)v[1] / v[3];
   if (!(fabs(x) < kFarthest) || !(fabs(y) < kFarthest)) return 0;
-  corner->x = (int64_t)floor(x * kOne + 0.5);
-  corner->y = (int64_t)floor(y * kOne + 0.5);
+  corner->x = (int64_t)floor(x * (double)kOne + 0.5);
+  corner->y = (int64_t)floor(y * (double)kOne + 0.5);
   return 1;
 }
 

@@ -37,8 +37,9 @@ Status boxed(const Target& target, Draws draws, const PixelBox& pixel_box) {
     Counts counts = right_counts(t, draw);
     const Corners c = corners(draw, 0);
     if (!in_front(c)) return counts;
-    const auto [x0, y0, x1, y1] = pixel_box(box_of(c));
-    mask(t, counts, [x0 = x0, y0 = y0, x1 = x1, y1 = y1](int x, int y) {
+    const auto box = pixel_box(box_of(c));
+    mask(t, counts, [&box](int x, int y) {
+      const auto [x0, y0, x1, y1] = box;
       const auto fx = static_cast<float>(x), fy = static_cast<float>(y);
       return fx >= x0 && fx < x1 && fy >= y0 && fy < y1;
     });

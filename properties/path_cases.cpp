@@ -1,0 +1,337 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "properties/path_cases.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <utility>
+
+#include "properties/compare.hpp"
+#include "properties/generators.hpp"
+
+namespace surefill::properties {
+namespace {
+
+corpus::Outputs random_outputs(const corpus::Scene& scene, Random& random) {
+  corpus::Outputs outputs = outputs_of(scene);
+  if (!outputs.depth || random.one_in(4)) return outputs;  // conservative frames have counts alone
+  do {
+    outputs = {random.one_in(3), random.one_in(2), random.one_in(2), random.one_in(3), random.one_in(3)};
+  } while (!outputs.count && !outputs.index && !outputs.depth && !outputs.barycentrics);
+  return outputs;
+}
+
+PathScene random_case(std::uint64_t number, int size, int triangles) {
+  Random random(number);
+  const auto all = categories();
+  SceneLimits limits;
+  limits.max_size = size, limits.max_triangles = triangles;
+  limits.samples = random.one_in(3), limits.grid = random.one_in(4), limits.conservative = random.one_in(8);
+  PathScene made{random_scene(all[number % all.size()], number, limits), {}, random.between(1, 3)};
+  made.outputs = random_outputs(made.scene, random);
+  made.in_place = random.one_in(2), made.executor = random.one_in(4), made.streams = random.one_in(3);
+  return made;
+}
+
+PathScene small_case(std::uint64_t number) {
+  return random_case(number, 16, 4);
+}
+PathScene tiles_case(std::uint64_t number) {
+  return random_case(number, 150, 8);
+}
+PathScene bands_case(std::uint64_t number) {
+  return random_case(number, 400, 12);
+}
+
+// A box around the vertices of a draw (M6), if they all lie in front of the eye.
+void add_culling_box(corpus::SceneDraw& draw) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  float low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
+  for (const corpus::SceneVertex& v : draw.vertices) {
+    const float at[3] = {v.x / v.w, v.y / v.w, v.z / v.w};
+    for (std::size_t i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], std::nextafter(at[i], -kInfinity));
+      high[i] = std::max(high[i], std::nextafter(at[i], kInfinity));
+    }
+  }
+  std::array<Vertex, 8>& box = draw.culling_box.emplace();
+  for (std::size_t k = 0; k < 8; ++k)
+    box[k] = {(k & 1) != 0 ? high[0] : low[0], (k & 2) != 0 ? high[1] : low[1], (k & 4) != 0 ? high[2] : low[2], 1};
+}
+
+// State that all frames of the two kinds below may have.
+void add_state(corpus::Scene& scene, Random& random) {
+  if (random.one_in(3)) scene.depth_test = DepthTest::greater;
+  if (random.one_in(4)) scene.samples = 1 << random.between(1, 2);
+  if (random.one_in(3)) scene.initial_depth = {static_cast<float>(random.between(0, 8)) / 8};
+  const bool identifiers = random.one_in(3);
+  std::uint32_t identifier = 0;
+  for (corpus::SceneDraw& draw : scene.draws) {
+    draw.fill_rule = static_cast<FillRule>(random.below(8));
+    draw.cull = static_cast<Cull>(random.below(3));
+    draw.depth_mode = static_cast<DepthMode>(random.below(3));
+    draw.depth_write = !random.one_in(4);
+    if (random.one_in(3)) add_culling_box(draw);
+    if (random.one_in(3)) {
+      // On cells or within them, each side for itself.
+      const auto side = [&](int first, int last) {
+        const int at = random.between(first, last);
+        return random.one_in(3) ? at : at & ~3;
+      };
+      const int x = side(-8, scene.width - 4), y = side(-8, scene.height - 4);
+      draw.scissor = {x, y, side(x + 4, scene.width), side(y + 4, scene.height)};
+    }
+    if (identifiers) {
+      for (std::size_t i = 0; i < draw.triangles.size(); ++i) {
+        draw.triangles[i].identifier = identifier++;
+        std::swap(draw.triangles[i].identifier,
+                  draw.triangles[random.below(static_cast<std::uint32_t>(i + 1))].identifier);
+      }
+    }
+  }
+}
+
+void append(corpus::SceneDraw& draw, const Vertex (&vertices)[3]) {
+  const auto first = static_cast<std::uint32_t>(draw.vertices.size());
+  for (const Vertex& v : vertices) draw.vertices.push_back({v.x, v.y, v.z, v.w, {}});
+  draw.triangles.push_back({{first, first + 1, first + 2}, {}});
+}
+
+// More small triangles than are set up at a time, on few depths, so that many tie.
+PathScene crowd_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = random.between(40, 200), scene.height = random.between(40, 200);
+  scene.draws.resize(1 + random.below(2));
+  const int reach = 16 * random.between(1, 40), depths = random.one_in(2) ? 3 : 4096;
+  const bool flat = random.one_in(2);
+  for (corpus::SceneDraw& draw : scene.draws) {
+    for (std::uint32_t t = 0, count = 100 + random.below(300); t < count; ++t) {
+      const int x = random.between(-32, 16 * scene.width), y = random.between(-32, 16 * scene.height);
+      const auto any_depth = [&] {
+        return static_cast<float>(random.between(-depths / 3, depths + depths / 3)) / static_cast<float>(depths);
+      };
+      const float z = any_depth();
+      Vertex v[3];
+      for (Vertex& vertex : v) {
+        const float w = random.one_in(8) ? static_cast<float>(1 + random.below(8)) / 4 : 1;
+        const float depth = flat ? z : any_depth();
+        vertex = {static_cast<float>(x + random.between(-reach, reach)) / 16 * w,
+                  static_cast<float>(y + random.between(-reach, reach)) / 16 * w, depth * w, w};
+      }
+      append(draw, v);
+    }
+  }
+  add_state(scene, random);
+  made.outputs = random_outputs(scene, random);
+  made.threads = random.between(1, 3), made.executor = random.one_in(4), made.streams = random.one_in(4);
+  return made;
+}
+
+// Planes over whole tiles, one behind the other or all but one, or crossing: what hierarchical z may hide and what not
+// is a matter of the last bit.
+PathScene layers_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = random.between(64, 260), scene.height = random.between(64, 200);
+  scene.draws.resize(1 + random.below(2));
+  const double slope = random.one_in(3) ? 0 : std::ldexp(1.0, -random.between(6, 30));
+  const double dx = random.between(-4, 4) * slope, dy = random.between(-4, 4) * slope;
+  // As near as float32 depths can be, or nearer; or so far that each of them hides the next.
+  const double step =
+      random.one_in(4) ? 0 : std::ldexp(static_cast<double>(random.between(-2, 2)), -random.between(4, 26));
+  const double tilt =
+      random.one_in(2) ? 0 : std::ldexp(static_cast<double>(random.between(-3, 3)), -random.between(8, 34));
+  double z = random.one_in(4) ? static_cast<double>(random.below(2)) : 0.5;
+  for (corpus::SceneDraw& draw : scene.draws) {
+    for (std::uint32_t t = 0, count = 2 + random.below(12); t < count; ++t) {
+      const double x = random.between(-300, 300), y = random.between(-300, 300), size = random.between(30, 900);
+      const double corners[3][2] = {
+          {x, y}, {x + size, y + random.between(-40, 40)}, {x + random.between(-40, 40), y + size}};
+      Vertex v[3];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const double tilted = (t & 1) != 0 ? tilt : 0, w = random.one_in(16) ? 2 : 1;
+        const double depth = z + (dx + tilted) * corners[k][0] + (dy - tilted) * corners[k][1];
+        v[k] = {static_cast<float>(corners[k][0] * w), static_cast<float>(corners[k][1] * w),
+                static_cast<float>(depth * w), static_cast<float>(w)};
+      }
+      append(draw, v);
+      z += step;
+    }
+  }
+  add_state(scene, random);
+  made.outputs = random_outputs(scene, random);
+  if (random.one_in(2)) made.outputs.count = false;  // nothing is hidden where fragments count
+  made.threads = random.between(1, 3), made.executor = random.one_in(4);
+  return made;
+}
+
+// Right triangles with legs of a power of two, where the weights of a sample have few bits: depth and an attribute at
+// one sample are halfway between two float32, but for a bit that no double has beside the others; or exactly.
+PathScene halfway_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  const int log2_leg = random.between(1, 8), leg = 1 << log2_leg;
+  scene.width = random.between(1, leg + 8), scene.height = random.between(1, leg + 8);
+  if (random.one_in(2))
+    scene.attributes.push_back({"u", 1 + random.below(4), static_cast<Interpolation>(random.below(2))});
+  const std::uint32_t components = scene.attributes.empty() ? 0 : scene.attributes[0].components;
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  for (std::uint32_t t = 0, count = 1 + random.below(4); t < count; ++t) {
+    const int x = random.between(-leg / 2, scene.width - 1), y = random.between(-leg / 2, scene.height - 1);
+    // The sample (x + k1/2, y + k2/2) and its weights times 2 leg.
+    const auto odd_below = [&](int n) { return 2 * random.between(0, (n - 1) / 2) + 1; };
+    const int k1 = odd_below(2 * leg - 1), k2 = odd_below(2 * leg - k1), k0 = 2 * leg - k1 - k2;
+    const auto hard_values = [&](float(&values)[3]) {
+      // k0 a + k1 b with 24 + s + 1 bits, the last s + 1 of which are 10...0.
+      std::int64_t a = 0, b = 0;
+      for (int tries = 0; tries < 4000; ++tries) {
+        a = (1 << 23) + random.below(1u << 23), b = (1 << 23) + random.below(1u << 23);
+        const auto n = static_cast<std::uint64_t>(k0 * a + k1 * b);
+        const int s = static_cast<int>(std::bit_width(n)) - 25;
+        if (s >= 0 && (n & ((std::uint64_t{2} << s) - 1)) == std::uint64_t{1} << s) break;
+      }
+      const int exponent = -random.between(23, 26);
+      values[0] = std::ldexp(static_cast<float>(a), exponent), values[1] = std::ldexp(static_cast<float>(b), exponent);
+      const float least = std::ldexp(static_cast<float>(random.between(-1, 1)), -random.between(55, 149));
+      values[2] = least;
+      const std::uint32_t turn = random.below(8);
+      if (turn == 0) values[0] = -values[0], values[1] = -values[1];
+    };
+    float z[3];
+    hard_values(z);
+    const float corners[3][2] = {{0, 0}, {1, 0}, {0, 1}};
+    const float scale = random.one_in(2) ? 1 : std::ldexp(1.0f, random.between(-3, 3));
+    const auto first = static_cast<std::uint32_t>(draw.vertices.size());
+    for (std::size_t k = 0; k < 3; ++k) {
+      draw.vertices.push_back({(static_cast<float>(x) + corners[k][0] * static_cast<float>(leg)) * scale,
+                               (static_cast<float>(y) + corners[k][1] * static_cast<float>(leg)) * scale,
+                               z[k] * scale,
+                               scale,
+                               {}});
+    }
+    for (std::uint32_t c = 0; c < components; ++c) {
+      float u[3];
+      hard_values(u);
+      for (std::size_t k = 0; k < 3; ++k) draw.vertices[first + k].attributes.push_back(u[k]);
+    }
+    draw.triangles.push_back({{first, first + 1, first + 2}, {}});
+  }
+  if (random.one_in(3)) scene.depth_test = DepthTest::greater;
+  if (random.one_in(4)) draw.depth_mode = static_cast<DepthMode>(random.below(3));
+  made.outputs = random_outputs(scene, random);
+  return made;
+}
+
+constexpr PathCases kCases[] = {
+    {"small", "random scenes of a few cells", 6000, small_case},
+    {"tiles", "random scenes of a few tiles", 400, tiles_case},
+    {"bands", "random scenes of several bands for each thread", 60, bands_case},
+    {"crowd", "more triangles than are set up at a time", 150, crowd_case},
+    {"halfway", "values halfway between two float32, but for what a double cannot hold", 3000, halfway_case},
+    {"layers", "planes over whole tiles, as near to each other as hierarchical z can tell", 300, layers_case},
+};
+
+// The fast path looks at boxes first, whose borders it rounds to float32. With several samples its numbers are those of
+// sample 0, and other modes have other boxes.
+std::string broken_statistics(const Statistics& s, const Statistics& reference, const corpus::Scene& scene) {
+  const bool plain = scene.samples == 1 && std::all_of(scene.draws.begin(), scene.draws.end(), [](const auto& draw) {
+                       return !draw.grid && draw.conservative == Conservative::none;
+                     });
+  if (s.triangles != reference.triangles) return "triangles";
+  if (s.dropped + s.degenerate + s.culled + s.outside + s.rasterized != s.triangles)
+    return "the sum of the first group";
+  if (!plain || s.skipped_draws != 0) return "";
+  if (s.dropped != reference.dropped) return "dropped";
+  if (s.degenerate > reference.degenerate || s.culled > reference.culled) return "degenerate, or culled";
+  if (s.rasterized < reference.rasterized || s.rasterized > reference.rasterized + reference.outside)
+    return "rasterized";
+  return "";
+}
+
+bool same(const Statistics& a, const Statistics& b) {
+  return a.triangles == b.triangles && a.dropped == b.dropped && a.degenerate == b.degenerate && a.culled == b.culled &&
+         a.outside == b.outside && a.rasterized == b.rasterized && a.signs_by_filter == b.signs_by_filter &&
+         a.signs_by_residual == b.signs_by_residual && a.signs_by_expansion == b.signs_by_expansion &&
+         a.values_by_filter == b.values_by_filter && a.values_by_expansion == b.values_by_expansion;
+}
+
+}  // namespace
+
+std::span<const PathCases> all_path_cases() {
+  return kCases;
+}
+
+PathResult draw_path(const PathScene& of, const Options& with) {
+  corpus::Frame frame(of.scene, of.outputs);
+  corpus::Image& image = frame.image();
+  const auto for_each = [&](const auto& visit) {
+    for (auto* words : {&image.count, &image.index})
+      for (std::uint32_t& word : *words) visit(word);
+    for (auto* values : {&image.depth, &image.barycentrics})
+      for (float& value : *values) visit(value);
+    for (auto& values : image.attributes)
+      for (float& value : values) visit(value);
+  };
+  for_each([](auto& value) { value = std::bit_cast<std::decay_t<decltype(value)>>(0x4DEADBEFu); });
+  Target target = frame.target();
+  if (of.in_place && !target.depth.empty() && !target.initial_depth.empty()) {
+    std::copy(target.initial_depth.begin(), target.initial_depth.end(), target.depth.begin());
+    target.initial_depth = target.depth;
+  }
+  Options options = with;
+  if (of.executor) {
+    options.executor.run = [](void*, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
+      while (items-- > 0) task(argument, items);
+    };
+  }
+  PathResult result;
+  result.hash = static_cast<std::uint64_t>(render(target, frame.draws(), &result.statistics, options));
+  for_each([&](auto& value) {
+    result.hash = (result.hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15u;
+    result.hash ^= result.hash >> 29;
+  });
+  // In any order: a sum over the blocks.
+  std::atomic<std::uint64_t> sum = 0;
+  const auto visit = [](void* context, std::span<const CoverageBlock> blocks) {
+    for (const CoverageBlock& b : blocks) {
+      std::uint64_t key = b.mask;
+      for (const auto part : {b.draw, b.triangle, static_cast<std::uint32_t>(b.x), static_cast<std::uint32_t>(b.y),
+                              static_cast<std::uint32_t>(b.sample)})
+        key = (key ^ key >> 31 ^ part) * 0x9E3779B97F4A7C15u;
+      *static_cast<std::atomic<std::uint64_t>*>(context) += key ^ key >> 29;
+    }
+  };
+  if (of.streams) {
+    const Status status =
+        visit_coverage(target.width, target.height, target.samples, frame.draws(), {visit, &sum}, nullptr, options);
+    result.stream = sum + static_cast<std::uint64_t>(status);
+  }
+  return result;
+}
+
+std::string broken_path(const PathScene& of, const PathResult& reference) {
+  const PathResult fast = draw_path(of, {.threads = of.threads});
+  if (fast.hash != reference.hash) return "the image";
+  if (fast.stream != reference.stream) return "streamed coverage";
+  if (std::string broken = broken_statistics(fast.statistics, reference.statistics, of.scene); !broken.empty())
+    return "statistics: " + broken;
+  if (of.threads == 3) {
+    const PathResult alone = draw_path(of, {.threads = 1});
+    if (alone.hash != reference.hash) return "the image on one thread";
+    // Of draws that a culling box skips, the first thread's numbers are told.
+    const bool skips = fast.statistics.skipped_draws + alone.statistics.skipped_draws != 0;
+    if (!skips && !same(fast.statistics, alone.statistics)) return "statistics on one thread and on several";
+  }
+  return "";
+}
+
+}  // namespace surefill::properties

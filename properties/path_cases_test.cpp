@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "properties/path_cases.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+
+#include "corpus/scene.hpp"
+
+namespace surefill::properties {
+namespace {
+
+class PathCase : public testing::TestWithParam<PathCases> {};
+
+TEST_P(PathCase, EqualsTheReference) {
+  for (std::uint64_t number = 0; number < GetParam().tested; ++number) {
+    const PathScene scene = GetParam().make(number);
+    ASSERT_EQ(broken_path(scene, draw_path(scene, {.path = Path::reference})), "")
+        << GetParam().name << ", case " << number << ", threads " << scene.threads << '\n'
+        << corpus::write_scene(scene.scene);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Paths, PathCase, testing::ValuesIn(all_path_cases()),
+                         [](const auto& cases) { return std::string(cases.param.name); });
+
+}  // namespace
+}  // namespace surefill::properties

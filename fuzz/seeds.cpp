@@ -74,7 +74,9 @@ void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) 
   if (!bytes) return;
   const std::size_t number = seeds.count("paths") / 2;
   seeds.add("paths", name, *bytes);
-  (*bytes)[1] = static_cast<std::uint8_t>(number), (*bytes)[2] = static_cast<std::uint8_t>(37 * number);
+  const std::size_t threads = number % 4 == 0 ? 13 + number / 4 % 3 : 0;  // in the form's numbers: two, three or eight
+  (*bytes)[1] = static_cast<std::uint8_t>(number % 16 | threads << 4);
+  (*bytes)[2] = static_cast<std::uint8_t>(37 * number);
   seeds.add("paths", name + "-otherwise", *bytes);
 }
 

@@ -6,12 +6,15 @@
 // stride, a null struct), the status names one of the arguments at fault. A refused call leaves every byte as it was;
 // an accepted one leaves the inputs alone, and its outputs and statistics equal those of C++, byte for byte.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <deque>
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "fuzz/decode.hpp"
@@ -19,6 +22,7 @@
 #include "surefill/occlusion.hpp"
 #include "surefill/surefill.h"
 #include "surefill/surefill.hpp"
+#include "surefill/version.hpp"
 
 namespace surefill::fuzz {
 namespace {
@@ -112,8 +116,17 @@ class Call {
     if (c != nullptr && std::memcmp(depth, cpp.depth().data(), cpp.depth().size_bytes()) != 0) {
       fail("the depth of C and of C++ differ");
     }
-    check_query(c, cpp);
+    if (cpp.depth().size() != static_cast<std::size_t>(cpp.width()) * static_cast<std::size_t>(cpp.height()))
+      fail("the depth is not of the buffer's size");
+    check_query<OcclusionBox, surefill_box>(c, cpp, surefill_occlusion_query_boxes);
+    OcclusionBuffer moved(std::move(cpp));
+    check_query<OcclusionRectangle, surefill_rectangle>(c, moved, surefill_occlusion_query_rectangles);
+    cpp = std::move(moved);
+    if (moved.width() != 0 || !moved.depth().empty()) fail("a buffer that was moved from is not empty");
     surefill_occlusion_clear(c);
+    cpp.clear();
+    if (c != nullptr && std::memcmp(surefill_occlusion_depth(c), cpp.depth().data(), cpp.depth().size_bytes()) != 0)
+      fail("clearing differs between C and C++");
     surefill_occlusion_destroy(c);
   }
 
@@ -530,24 +543,37 @@ class Call {
     }
   }
 
-  void check_query(const surefill_occlusion* c, const OcclusionBuffer& cpp) {
+  void fill(surefill_box& box) {
+    for (surefill_vertex& corner : box.corners) corner = {real(), real(), real(), one_in(4) ? real() : 1.0f};
+  }
+  // Half of them in view; what is at infinity is hidden.
+  void fill(surefill_rectangle& box) {
+    box = {real(), real(), real(), real(), real()};
+    if (in_.below(2) == 0) box.x0 = box.y0 = 0, box.x1 = box.y1 = 2;
+    if (one_in(4)) box.nearest_depth = HUGE_VALF;
+  }
+
+  // Boxes or rectangles, asked of C and of C++.
+  template <typename CppBox, typename CBox, typename Query>
+  void check_query(const surefill_occlusion* c, const OcclusionBuffer& cpp, Query query) {
     const std::size_t count = in_.below(3);
-    std::vector<surefill_box> boxes(count);
-    std::vector<OcclusionBox> cpp_boxes(count);
+    std::vector<CBox> boxes(count);
+    std::vector<CppBox> cpp_boxes(count);
+    static_assert(sizeof(CBox) == sizeof(CppBox));
     for (std::size_t i = 0; i < count; ++i) {
-      for (surefill_vertex& corner : boxes[i].corners) corner = {real(), real(), real(), one_in(4) ? real() : 1.0f};
+      fill(boxes[i]);
       std::memcpy(&cpp_boxes[i], &boxes[i], sizeof boxes[i]);
     }
     constexpr std::uint8_t kMark = 0x5A;
     std::vector<std::uint8_t> answers(count, kMark), cpp_answers(count, kMark);
     const bool no_boxes = one_in(16), no_answers = one_in(16);
-    const surefill_status status = surefill_occlusion_query_boxes(c, no_boxes ? nullptr : boxes.data(), count,
-                                                                  no_answers ? nullptr : answers.data());
+    const surefill_status status =
+        query(c, no_boxes ? nullptr : boxes.data(), count, no_answers ? nullptr : answers.data());
     const Status expected =
-        cpp.query(std::span<const OcclusionBox>(no_boxes ? nullptr : cpp_boxes.data(), count),
+        cpp.query(std::span<const CppBox>(no_boxes ? nullptr : cpp_boxes.data(), count),
                   std::span<Occlusion>(no_answers ? nullptr : reinterpret_cast<Occlusion*>(cpp_answers.data()), count));
     if (status != (c == nullptr ? SUREFILL_NULL_OCCLUSION : static_cast<surefill_status>(expected))) {
-      fail("surefill_occlusion_query_boxes says " + text(status));
+      fail("a query of occlusion says " + text(status));
     }
     if (c != nullptr && answers != cpp_answers) fail("the answers of C and of C++ differ");
     if (status != SUREFILL_OK && std::any_of(answers.begin(), answers.end(), [](auto a) { return a != kMark; })) {
@@ -629,9 +655,11 @@ void check_small_calls(ByteReader& in) {
   const SampleLocation location = sample_location(samples, n);
   if (x != location.x || y != location.y) fail("surefill_sample_location differs from sample_location");
   if (surefill_sample_total(nullptr) != 0) fail("surefill_sample_total of nothing");
-  // Any number that C++ lets this enumeration hold.
-  const auto any = static_cast<surefill_status>(in.word() % 1024);
-  if (*surefill_status_text(any) == '\0') fail("a status without a text");
+  if (std::string_view(surefill_version()) != SUREFILL_VERSION) fail("another version than the header's");
+  // Every number that C++ lets this enumeration hold.
+  for (std::uint32_t any = 0; any < 1024; ++any) {
+    if (*surefill_status_text(static_cast<surefill_status>(any)) == '\0') fail("a status without a text");
+  }
 }
 
 }  // namespace

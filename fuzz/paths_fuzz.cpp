@@ -36,7 +36,7 @@ void use_instruction_set(std::size_t number) {
 }
 
 auto key(const CoverageBlock& b) {
-  return std::make_tuple(b.sample, b.y, b.x, b.draw, b.triangle, b.mask);
+  return std::make_tuple(b.sample, b.y, b.x, b.draw, b.triangle, b.mask, b.full());
 }
 
 // All blocks of a coverage stream, sorted: with several threads, rows of tiles come in any order.

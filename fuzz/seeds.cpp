@@ -54,8 +54,8 @@ constexpr std::size_t kTrianglesOfScene = 8;
 // Fewer make no closed mesh.
 constexpr std::size_t kMeshVertices = 5;
 
-// The scene on the next larger target of the form, drawn on the best instruction set, and once more on another one,
-// with other numbers of threads and outputs.
+// The scene on the next larger target of the form, drawn on the best instruction set; on another one, with other
+// numbers of threads and outputs; and without a count, with all that is shaded, so that depth may hide.
 void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) {
   if (scene.draws.empty()) return;
   const auto next_larger = [](int side) {
@@ -72,12 +72,19 @@ void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) 
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
   std::optional<Bytes> bytes = encode_paths(scene);
   if (!bytes) return;
-  const std::size_t number = seeds.count("paths") / 2;
+  constexpr std::uint8_t kNoCountShaded = 0x19, kStream = 7 << 5, kExecutor = 6 << 5;
+  const std::size_t number = seeds.count("paths") / 3;
+  // In the form's numbers: two, three or eight, which share the bands of a high target.
+  const std::size_t threads = scene.height > kPathSides[3] ? 13 + number % 3 : 0;
   seeds.add("paths", name, *bytes);
-  const std::size_t threads = number % 4 == 0 ? 13 + number / 4 % 3 : 0;  // in the form's numbers: two, three or eight
   (*bytes)[1] = static_cast<std::uint8_t>(number % 16 | threads << 4);
-  (*bytes)[2] = static_cast<std::uint8_t>(37 * number);
+  (*bytes)[2] = static_cast<std::uint8_t>(threads != 0 ? kExecutor : 37 * number);
   seeds.add("paths", name + "-otherwise", *bytes);
+  (*bytes)[1] = static_cast<std::uint8_t>(number / 3 % 16 | threads << 4);
+  (*bytes)[2] = static_cast<std::uint8_t>(kNoCountShaded | (number % 2 == 1   ? kStream
+                                                            : number % 4 == 2 ? kExecutor
+                                                                              : 0));
+  seeds.add("paths", name + "-without-count", *bytes);
 }
 
 // A mesh over the vertices of a small scene, as text.
@@ -135,8 +142,8 @@ void add_generated(SeedWriter& seeds) {
 // Calls with nothing wrong, and then more and more of the bytes that spoil an argument.
 void add_arguments(SeedWriter& seeds) {
   properties::Random random(1);
-  for (int n = 0; n < 64; ++n) {
-    Bytes bytes(static_cast<std::size_t>(16 + 8 * n));
+  for (int n = 0; n < 256; ++n) {
+    Bytes bytes(static_cast<std::size_t>(16 + 8 * (n % 64)));
     for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.bits());
     bytes[0] = static_cast<std::uint8_t>(n);
     seeds.add("arguments", "call-" + std::to_string(n), bytes);

@@ -269,7 +269,7 @@ SUREFILL_API Status render(const Target& target, std::span<const Draw> draws, St
 // blocks with samples that the triangle covers, as M2 counts them: dropped and culled triangles, scissor and depth clip
 // are taken into account, the depth test is not. Within a tile of 64 x 64 pixels the triangles of a sample number come
 // in order, all from one thread; with several threads, tiles of different rows come at once. The visitor returns
-// normally. Memory: 12 bytes a block; where a draw clips depth, also 8 bytes a pixel.
+// normally. Memory: 8 bytes a block and 4 more for each thread; where a draw clips depth, also 8 bytes a pixel.
 SUREFILL_API Status visit_coverage(int width, int height, int samples, std::span<const Draw> draws,
                                    const CoverageVisitor& visitor, Statistics* statistics = nullptr,
                                    const Options& options = {}) noexcept;

@@ -47,7 +47,7 @@ class Rasterizer {
 
  private:
   // The triangles of some lanes, in order.
-  HWY_INLINE void Lanes(std::uint32_t lanes) {
+  HWY_NOINLINE void Lanes(std::uint32_t lanes) {
     if (!bands_.all) lanes &= OwnedLanes();
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
@@ -67,8 +67,6 @@ class Rasterizer {
     DrawCells(1);
   }
 
-  HWY_NOINLINE void DrawLanes(std::uint32_t lanes) { Lanes(lanes); }
-
   // The same where some are clipped, or a visitor has to see each.
   HWY_NOINLINE void OneByOne() {
     for (std::uint32_t lanes = batch_->live | batch_->clipped; lanes != 0; lanes &= lanes - 1) {
@@ -76,7 +74,7 @@ class Rasterizer {
       if ((batch_->clipped >> lane & 1) != 0) {
         Clipped(batch_->position(lane));
       } else {
-        DrawLanes(1u << lane);
+        Lanes(1u << lane);
       }
       if (kCount && canvas_.masks != nullptr) writer_.Emit(batch_->position(lane));
     }
@@ -110,7 +108,7 @@ class Rasterizer {
     Batch fan;
     if (SetUpFan(job_, position, snapped, fan)) {
       batch_ = &fan;
-      DrawLanes(fan.live);
+      Lanes(fan.live);
       batch_ = others;
       return;
     }

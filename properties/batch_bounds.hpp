@@ -35,8 +35,9 @@ class BatchBounds {
     const std::uint32_t count = 1 + random_.below(fast::kBatch);
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
+    const bool uneven = random_.one_in(4);
     for (std::uint32_t t = 0; t < count; ++t) {
-      for (const Vertex& v : category.triangle(random_, size, size)) {
+      for (const Vertex& v : uneven ? uneven_triangle() : category.triangle(random_, size, size)) {
         indices.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back(v);
       }
@@ -45,8 +46,10 @@ class BatchBounds {
     draw_.fill_rule = static_cast<FillRule>(random_.below(8));
     draw_.depth_mode = static_cast<DepthMode>(random_.below(3));
     draw_.cull = random_.one_in(3) ? static_cast<Cull>(random_.below(3)) : Cull::none;
-    const int samples = 1 << random_.below(5);
-    const SampleLocation location = sample_location(samples, random_.between(0, samples - 1));
+    const int samples = uneven ? 16 : 1 << random_.below(5);
+    // The last four of sixteen lie on the pixel's left or upper border, or near it.
+    const SampleLocation location =
+        sample_location(samples, uneven ? random_.between(12, 15) : random_.between(0, samples - 1));
     PixelBox region{0, 0, size, size};
     if (random_.one_in(3)) region = {size / 4, size / 5, size - size / 3, size - size / 7};
     job_ = {
@@ -68,6 +71,17 @@ class BatchBounds {
     if (!holds && broken_.empty()) broken_ = what;
   }
   static bool has(std::uint32_t lanes, std::uint32_t lane) { return (lanes >> lane & 1) != 0; }
+  // Whole numbers and powers of two far below them: products of which some are exact, edges that miss samples by next
+  // to nothing.
+  std::array<Vertex, 3> uneven_triangle() {
+    const auto number = [&](int low, int high) {
+      if (!random_.one_in(3)) return static_cast<float>(random_.between(low, high));
+      return std::ldexp(static_cast<float>(random_.between(-3, 3)), -random_.between(10, 34));
+    };
+    std::array<Vertex, 3> made;
+    for (Vertex& v : made) v = {number(-2, 14), number(-2, 14), number(0, 3), random_.one_in(3) ? number(1, 3) : 1.0f};
+    return made;
+  }
   SamplePosition at(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
 
   template <class Terms>

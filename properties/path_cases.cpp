@@ -26,13 +26,17 @@ corpus::Outputs random_outputs(const corpus::Scene& scene, Random& random) {
   return outputs;
 }
 
+int random_threads(Random& random) {
+  return random.one_in(4) ? random.between(2, 3) : 1;
+}
+
 PathScene random_case(std::uint64_t number, int size, int triangles) {
   Random random(number);
   const auto all = categories();
   SceneLimits limits;
   limits.max_size = size, limits.max_triangles = triangles;
   limits.samples = random.one_in(3), limits.grid = random.one_in(4), limits.conservative = random.one_in(8);
-  PathScene made{random_scene(all[number % all.size()], number, limits), {}, random.between(1, 3)};
+  PathScene made{random_scene(all[number % all.size()], number, limits), {}, random_threads(random)};
   made.outputs = random_outputs(made.scene, random);
   made.in_place = random.one_in(2), made.executor = random.one_in(4), made.streams = random.one_in(3);
   return made;
@@ -53,6 +57,7 @@ void add_culling_box(corpus::SceneDraw& draw) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   float low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
   for (const corpus::SceneVertex& v : draw.vertices) {
+    if (!(v.w > 0)) return;
     const float at[3] = {v.x / v.w, v.y / v.w, v.z / v.w};
     for (std::size_t i = 0; i < 3; ++i) {
       low[i] = std::min(low[i], std::nextafter(at[i], -kInfinity));
@@ -130,35 +135,37 @@ PathScene crowd_case(std::uint64_t number) {
   }
   add_state(scene, random);
   made.outputs = random_outputs(scene, random);
-  made.threads = random.between(1, 3), made.executor = random.one_in(4), made.streams = random.one_in(4);
+  made.threads = random_threads(random), made.executor = random.one_in(4), made.streams = random.one_in(4);
   return made;
 }
 
-// Planes over whole tiles, one behind the other or all but one, or crossing: what hierarchical z may hide and what not
-// is a matter of the last bit.
+// Planes over whole tiles, parallel or crossing, as near to each other as float32 depths can be, about a depth of any
+// size or about 0: what hierarchical z may hide and what not is a matter of the last bit.
 PathScene layers_case(std::uint64_t number) {
   Random random(number);
   PathScene made;
   corpus::Scene& scene = made.scene;
   scene.width = random.between(64, 260), scene.height = random.between(64, 200);
   scene.draws.resize(1 + random.below(2));
-  const double slope = random.one_in(3) ? 0 : std::ldexp(1.0, -random.between(6, 30));
-  const double dx = random.between(-4, 4) * slope, dy = random.between(-4, 4) * slope;
-  // As near as float32 depths can be, or nearer; or so far that each of them hides the next.
-  const double step =
-      random.one_in(4) ? 0 : std::ldexp(static_cast<double>(random.between(-2, 2)), -random.between(4, 26));
-  const double tilt =
-      random.one_in(2) ? 0 : std::ldexp(static_cast<double>(random.between(-3, 3)), -random.between(8, 34));
-  double z = random.one_in(4) ? static_cast<double>(random.below(2)) : 0.5;
+  const double base = random.one_in(2) ? 0.5 : static_cast<double>(random.below(2));
+  const int finest = base == 0 ? 60 : 26;
+  const auto small = [&](int most) {
+    return std::ldexp(static_cast<double>(random.between(-most, most)), -random.between(4, finest));
+  };
+  const double dx = random.one_in(4) ? 0 : small(4), dy = random.one_in(4) ? 0 : small(4);
+  const double step = random.one_in(4) ? 0 : small(2), tilt = random.one_in(3) ? 0 : 1;
+  double z = base;
   for (corpus::SceneDraw& draw : scene.draws) {
     for (std::uint32_t t = 0, count = 2 + random.below(12); t < count; ++t) {
-      const double x = random.between(-300, 300), y = random.between(-300, 300), size = random.between(30, 900);
+      // Most cover whole tiles; some begin within the image.
+      const double x = random.between(-300, 200), y = random.between(-300, 200), size = random.between(30, 1500);
       const double corners[3][2] = {
           {x, y}, {x + size, y + random.between(-40, 40)}, {x + random.between(-40, 40), y + size}};
+      const double turn_x = dx + tilt * small(3), turn_y = dy + tilt * small(3);
       Vertex v[3];
       for (std::size_t k = 0; k < 3; ++k) {
-        const double tilted = (t & 1) != 0 ? tilt : 0, w = random.one_in(16) ? 2 : 1;
-        const double depth = z + (dx + tilted) * corners[k][0] + (dy - tilted) * corners[k][1];
+        const double w = random.one_in(16) ? 2 : 1;
+        const double depth = z + turn_x * (corners[k][0] - 64) + turn_y * (corners[k][1] - 64);
         v[k] = {static_cast<float>(corners[k][0] * w), static_cast<float>(corners[k][1] * w),
                 static_cast<float>(depth * w), static_cast<float>(w)};
       }
@@ -167,9 +174,44 @@ PathScene layers_case(std::uint64_t number) {
     }
   }
   add_state(scene, random);
+  if (!random.one_in(4)) scene.initial_depth.clear();
+  for (corpus::SceneDraw& draw : scene.draws)
+    if (!random.one_in(4)) draw.cull = Cull::none, draw.depth_write = true, draw.scissor.reset();
   made.outputs = random_outputs(scene, random);
-  if (random.one_in(2)) made.outputs.count = false;  // nothing is hidden where fragments count
-  made.threads = random.between(1, 3), made.executor = random.one_in(4);
+  if (!random.one_in(8)) made.outputs.count = false;  // nothing is hidden where fragments count
+  if (!made.outputs.index && !made.outputs.barycentrics) made.outputs.depth = true;
+  made.threads = random_threads(random), made.executor = random.one_in(4);
+  return made;
+}
+
+// Grid, on slivers that reach behind the eye or beyond the guard band: polygons of several corners, which a coarse grid
+// folds. On targets of whole tiles, so that their last tiles have no neighbours.
+PathScene clipped_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = 64 * random.between(1, 3), scene.height = 64 * random.between(1, 3);
+  scene.draws.resize(1);
+  corpus::SceneDraw& draw = scene.draws[0];
+  const auto on_screen = [&](int size) { return static_cast<float>(random.between(0, 4 * size)) / 4; };
+  for (std::uint32_t t = 0, count = 1 + random.below(3); t < count; ++t) {
+    const float x = on_screen(scene.width), y = on_screen(scene.height);
+    const float near_x = x + static_cast<float>(random.between(-8, 8)) / 4,
+                near_y = y + static_cast<float>(random.between(-8, 8)) / 4;
+    // Far away, or behind the eye, where the direction is the opposite one.
+    const float far_x = static_cast<float>(random.between(-60, 60)) * 1024,
+                far_y = static_cast<float>(random.between(-60, 60)) * 1024;
+    const float w = random.one_in(2) ? 1.0f : -static_cast<float>(random.below(3)) / 64;
+    const Vertex v[3] = {
+        {x, y, 0.25f, 1}, {near_x, near_y, 0.5f, 1}, {far_x, far_y, static_cast<float>(random.below(2)) / 2, w}};
+    append(draw, v);
+  }
+  add_state(scene, random);
+  draw.scissor.reset();
+  if (random.one_in(2)) draw.culling_box.reset();
+  draw.grid = Grid{random.between(0, 3), 0, 0, static_cast<GridRounding>(random.below(3))};
+  made.outputs = random_outputs(scene, random);
+  made.threads = random_threads(random), made.streams = random.one_in(4);
   return made;
 }
 
@@ -237,6 +279,7 @@ constexpr PathCases kCases[] = {
     {"bands", "random scenes of several bands for each thread", 60, bands_case},
     {"crowd", "more triangles than are set up at a time", 150, crowd_case},
     {"halfway", "values halfway between two float32, but for what a double cannot hold", 3000, halfway_case},
+    {"clipped", "slivers that Grid clips and folds", 300, clipped_case},
     {"layers", "planes over whole tiles, as near to each other as hierarchical z can tell", 300, layers_case},
 };
 

@@ -27,7 +27,7 @@ struct Left {
 
 #define SUREFILL_MUTANT_OPERATOR(op, instead)                                                \
   template <class Value, unsigned N>                                                         \
-  Left<std::decay_t<Value>, N> operator op(const Value& value, Marked<N>) {                  \
+  Left<std::decay_t<Value>, N> operator op(Value&& value, Marked<N>) {                       \
     return {value};                                                                          \
   }                                                                                          \
   template <class Value, unsigned N, class Right>                                            \
@@ -45,6 +45,10 @@ SUREFILL_MUTANT_OPERATOR(>, >=)
 SUREFILL_MUTANT_OPERATOR(>=, >)
 SUREFILL_MUTANT_OPERATOR(==, !=)
 SUREFILL_MUTANT_OPERATOR(!=, ==)
+SUREFILL_MUTANT_OPERATOR(&, |)
+SUREFILL_MUTANT_OPERATOR(|, &)
+SUREFILL_MUTANT_OPERATOR(<<, >>)
+SUREFILL_MUTANT_OPERATOR(>>, <<)
 
 #undef SUREFILL_MUTANT_OPERATOR
 

@@ -4,34 +4,88 @@
 // A line for each: NUMBER killed|survived BY. Each runs in a process of its own and stops at its first kill.
 #include <signal.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <sys/wait.h>
+#include <time.h>
 #include <unistd.h>
 
-#include <chrono>
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
+#include <memory>
 #include <numeric>
 #include <string>
 #include <vector>
 
 #include "certify/checks.hpp"
 #include "mutant.hpp"
+#include "properties/path_cases.hpp"
+#if defined(SUREFILL_REFERENCE_ONLY)
 #include "properties/internal_bounds.hpp"
+#else
+#include "properties/batch_bounds.hpp"
+#endif
 
 namespace surefill {
 namespace {
 
-// Every check of the command at its quick level but those that draw whole meshes, which take seconds a case; and the
-// test of the engine's inner promises.
+// Each kind of frame that aims at the fast path, and the corpus. What the reference path makes of them, which has no
+// mutants here, is known beforehand for the first ones.
+[[maybe_unused]] void add_path_checks(const certify::Settings& settings, std::vector<certify::Check>& checks) {
+  using properties::PathResult, properties::PathScene;
+  const auto add = [&](const std::string& name, std::uint64_t known, std::function<PathScene(std::uint64_t)> make) {
+    certify::Check& check = checks.emplace_back(certify::make_check("paths-" + name, "", "its test"));
+    auto results = std::make_shared<std::vector<PathResult>>();
+    const auto reference = [make](std::uint64_t n) {
+      return properties::draw_path(make(n), {.path = Path::reference});
+    };
+    check.prepare = [=] {
+      for (std::uint64_t n = 0; n < known; ++n) results->push_back(reference(n));
+      return known;
+    };
+    check.run = [=](std::uint64_t n) {
+      certify::CaseResult result;
+      const PathResult expected = n < results->size() ? (*results)[n] : reference(n);
+      result.differences = properties::broken_path(make(n), expected).empty() ? 0 : 1;
+      return result;
+    };
+  };
+  for (const properties::PathCases& cases : properties::all_path_cases()) add(cases.name, 4 * cases.tested, cases.make);
+  auto scenes = std::make_shared<std::vector<corpus::Scene>>();
+  for (const std::string& path : corpus::list_corpus(settings.corpus + "/cases")) {
+    scenes->push_back(corpus::read_scene_file(path));
+    for (const corpus::SceneDraw& draw : scenes->back().draws) {
+      if (!draw.points.empty() || !draw.lines.empty()) {  // have no rasterizer
+        scenes->pop_back();
+        break;
+      }
+    }
+  }
+  add("corpus", scenes->size(), [scenes](std::uint64_t n) {
+    const corpus::Scene& scene = (*scenes)[n % scenes->size()];
+    return PathScene{scene, properties::outputs_of(scene), 1 + static_cast<int>(n % 2)};
+  });
+  checks.back().exhaustive = true;
+}
+
+// Every check of the command at its quick level but those that draw whole meshes, which take seconds a case; and what
+// has tests of its own: the engine's inner promises, and the fast path.
 std::vector<certify::Check> suite(const certify::Settings& settings) {
   std::vector<certify::Check> checks = certify::list_checks(settings);
   std::erase_if(checks, [](const certify::Check& check) { return check.name.rfind("mesh-", 0) == 0; });
-  certify::Check& bounds = checks.emplace_back(certify::make_check("internal-bounds", "", "its test"));
+#if defined(SUREFILL_REFERENCE_ONLY)
+  using Bounds = properties::InternalBounds;
+#else
+  using Bounds = properties::BatchBounds;
+  add_path_checks(settings, checks);
+#endif
+  certify::Check& bounds = checks.emplace_back(certify::make_check("paths-bounds", "", "its test"));
   bounds.prepare = [] { return std::uint64_t{1} << 32; };
   bounds.run = [](std::uint64_t number) {
     certify::CaseResult result;
-    result.differences = properties::InternalBounds(number).broken().empty() ? 0 : 1;
+    result.differences = Bounds(number).broken().empty() ? 0 : 1;
     return result;
   };
   return checks;
@@ -44,27 +98,50 @@ std::uint64_t step_through(std::uint64_t cases) {
   return step;
 }
 
+// In which order the checks take turns: after each other one, three of those of the fast path, if there are any.
+std::vector<std::size_t> turns(const std::vector<certify::Check>& checks) {
+  std::vector<std::size_t> others, paths, order;
+  for (std::size_t i = 0; i < checks.size(); ++i)
+    (checks[i].name.rfind("paths-", 0) == 0 ? paths : others).push_back(i);
+  for (std::size_t i = 0, path = 0; i < others.size(); ++i) {
+    for (int n = 0; n < 3 && !paths.empty(); ++n) order.push_back(paths[path++ % paths.size()]);
+    order.push_back(others[i]);
+  }
+  return order;
+}
+
+// Seconds of processor time: a busy machine gives no mutant a shorter life.
+double processor_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+// A case that never ends ends the process: one that computes after 10 s, one that waits after two minutes.
+void limit_case() {
+  const itimerval limit{{0, 0}, {10, 0}};
+  setitimer(ITIMER_PROF, &limit, nullptr);
+  alarm(120);
+}
+
 // In the child: the name of the check that kills the mutant, or nothing after so many seconds. The checks take turns, a
 // hundredth of a second or one case at a time; sampled cases go on, and those of a list come well mixed, again and
 // again.
 std::string first_kill(const std::vector<certify::Check>& checks, const std::vector<std::uint64_t>& cases,
                        double seconds) {
-  using Clock = std::chrono::steady_clock;
-  const auto since = [](Clock::time_point start) {
-    return std::chrono::duration<double>(Clock::now() - start).count();
-  };
-  const Clock::time_point start = Clock::now();
+  const double start = processor_seconds();
+  const std::vector<std::size_t> order = turns(checks);
   std::vector<std::uint64_t> next(checks.size());
   for (;;) {
-    for (std::size_t i = 0; i < checks.size(); ++i) {
-      const Clock::time_point turn = Clock::now();
+    for (const std::size_t i : order) {
+      const double turn = processor_seconds();
       do {
-        if (since(start) > seconds) return {};
-        alarm(10);  // a case that never ends ends the process
+        if (processor_seconds() - start > seconds) return {};
+        limit_case();
         const std::uint64_t n = next[i]++;
         const std::uint64_t number = checks[i].exhaustive ? n % cases[i] * step_through(cases[i]) % cases[i] : n;
         if (checks[i].run(number).differences != 0) return checks[i].name;
-      } while (since(turn) < 0.01);
+      } while (processor_seconds() - turn < 0.01);
     }
   }
 }
@@ -75,8 +152,10 @@ void run(const std::vector<certify::Check>& checks, const std::vector<std::uint6
   if (pipe(ends) != 0) std::exit(2);
   const pid_t child = fork();
   if (child == 0) {
+#if defined(SUREFILL_REFERENCE_ONLY)  // else a sanitizer needs the address space, and limits memory itself
     const rlimit memory{rlim_t{3} << 30, rlim_t{3} << 30};
     setrlimit(RLIMIT_AS, &memory);
+#endif
     const rlimit no_core{0, 0};
     setrlimit(RLIMIT_CORE, &no_core);
     mutant::number = number;
@@ -91,16 +170,20 @@ void run(const std::vector<certify::Check>& checks, const std::vector<std::uint6
   int status = 0;
   waitpid(child, &status, 0);
   const bool survived = WIFEXITED(status) && WEXITSTATUS(status) == 0;
-  const char* by = survived                                             ? "-"
-                   : length > 0                                         ? text
-                   : WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM ? "hang"
-                                                                        : "crash";
+  const char* by = survived                                                                              ? "-"
+                   : length > 0                                                                          ? text
+                   : WIFSIGNALED(status) && (WTERMSIG(status) == SIGALRM || WTERMSIG(status) == SIGPROF) ? "hang"
+                                                                                                         : "crash";
   std::printf("%u %s %s\n", number, survived ? "survived" : "killed", by);
   std::fflush(stdout);
 }
 
 }  // namespace
 }  // namespace surefill
+
+extern "C" const char* __asan_default_options() {
+  return "detect_leaks=0:allocator_may_return_null=1:max_allocation_size_mb=2000";
+}
 
 int main(int argc, char** argv) {
   if (argc < 3) {

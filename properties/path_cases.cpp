@@ -3,13 +3,14 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <mutex>
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include "properties/compare.hpp"
 #include "properties/generators.hpp"
@@ -342,29 +343,45 @@ PathResult draw_path(const PathScene& of, const Options& with) {
     result.hash = (result.hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15u;
     result.hash ^= result.hash >> 29;
   });
-  // In any order: a sum over the blocks.
-  std::atomic<std::uint64_t> sum = 0;
+  if (!of.streams) return result;
+  // In any order: a sum over the blocks, and counts.
+  struct Sink {
+    std::mutex mutex;
+    std::uint64_t sum = 0;
+    std::vector<std::uint32_t> counts;
+    int width, height, samples;
+  } sink;
+  sink.width = target.width, sink.height = target.height, sink.samples = target.samples;
+  sink.counts.resize(sample_total(target));
   const auto visit = [](void* context, std::span<const CoverageBlock> blocks) {
+    Sink& to = *static_cast<Sink*>(context);
+    const std::lock_guard lock(to.mutex);
     for (const CoverageBlock& b : blocks) {
       std::uint64_t key = b.mask;
       for (const auto part : {b.draw, b.triangle, static_cast<std::uint32_t>(b.x), static_cast<std::uint32_t>(b.y),
                               static_cast<std::uint32_t>(b.sample)})
         key = (key ^ key >> 31 ^ part) * 0x9E3779B97F4A7C15u;
-      *static_cast<std::atomic<std::uint64_t>*>(context) += key ^ key >> 29;
+      to.sum += key ^ key >> 29;
+      for (int bit = 0; bit < 64; ++bit) {
+        if ((b.mask >> bit & 1) == 0) continue;
+        const int x = b.x + bit % 8, y = b.y + bit / 8;
+        const bool within = x >= 0 && x < to.width && y >= 0 && y < to.height && b.sample < to.samples;
+        if (within) ++to.counts[static_cast<std::size_t>((y * to.width + x) * to.samples + b.sample)];
+        if (!within) ++to.counts[0];  // what cannot be
+      }
     }
   };
-  if (of.streams) {
-    const Status status =
-        visit_coverage(target.width, target.height, target.samples, frame.draws(), {visit, &sum}, nullptr, options);
-    result.stream = sum + static_cast<std::uint64_t>(status);
-  }
+  const Status status =
+      visit_coverage(target.width, target.height, target.samples, frame.draws(), {visit, &sink}, nullptr, options);
+  result.stream = sink.sum + static_cast<std::uint64_t>(status);
+  if (status == Status::ok && !image.count.empty()) result.counts_agree = sink.counts == image.count;
   return result;
 }
 
 std::string broken_path(const PathScene& of, const PathResult& reference) {
   const PathResult fast = draw_path(of, {.threads = of.threads});
   if (fast.hash != reference.hash) return "the image";
-  if (fast.stream != reference.stream) return "streamed coverage";
+  if (fast.stream != reference.stream || !fast.counts_agree) return "streamed coverage";
   if (std::string broken = broken_statistics(fast.statistics, reference.statistics, of.scene); !broken.empty())
     return "statistics: " + broken;
   if (of.threads == 3) {

@@ -77,6 +77,15 @@ std::vector<certify::Check> suite(const certify::Settings& settings) {
   std::erase_if(checks, [](const certify::Check& check) { return check.name.rfind("mesh-", 0) == 0; });
 #if defined(SUREFILL_REFERENCE_ONLY)
   using Bounds = properties::InternalBounds;
+  certify::Check& streams = checks.emplace_back(certify::make_check("streams", "", "its test"));
+  streams.prepare = [] { return std::uint64_t{1} << 32; };
+  streams.run = [](std::uint64_t number) {
+    certify::CaseResult result;
+    properties::PathScene scene = properties::all_path_cases()[0].make(number);
+    scene.streams = scene.outputs.count = true;
+    result.differences = properties::draw_path(scene, {}).counts_agree ? 0 : 1;
+    return result;
+  };
 #else
   using Bounds = properties::BatchBounds;
   add_path_checks(settings, checks);

@@ -281,7 +281,7 @@ constexpr PathCases kCases[] = {
     {"crowd", "more triangles than are set up at a time", 150, crowd_case},
     {"halfway", "values halfway between two float32, but for what a double cannot hold", 3000, halfway_case},
     {"clipped", "slivers that Grid clips and folds", 300, clipped_case},
-    {"layers", "planes over whole tiles, as near to each other as hierarchical z can tell", 300, layers_case},
+    {"layers", "planes over whole tiles, as near to each other as hierarchical z can tell", 150, layers_case},
 };
 
 // The fast path looks at boxes first, whose borders it rounds to float32. With several samples its numbers are those of

@@ -10,10 +10,16 @@
 namespace surefill::properties {
 namespace {
 
+#ifdef SUREFILL_CASES_SHARE
+constexpr std::uint64_t kCasesShare = SUREFILL_CASES_SHARE;
+#else
+constexpr std::uint64_t kCasesShare = 1;
+#endif
+
 class PathCase : public testing::TestWithParam<PathCases> {};
 
 TEST_P(PathCase, EqualsTheReference) {
-  for (std::uint64_t number = 0; number < GetParam().tested; ++number) {
+  for (std::uint64_t number = 0; number < GetParam().tested / kCasesShare + 1; ++number) {
     const PathScene scene = GetParam().make(number);
     ASSERT_EQ(broken_path(scene, draw_path(scene, {.path = Path::reference})), "")
         << GetParam().name << ", case " << number << ", threads " << scene.threads << '\n'

@@ -73,10 +73,11 @@ class Check {
   Check(std::string_view text, std::string_view file) : file_(file) {
     std::size_t begin = 0;
     while (begin < text.size()) {
-      const std::size_t end = std::min(text.find('\n', begin), text.size());
+      // A line ends as tinyobjloader has it: also at a carriage return alone.
+      const std::size_t end = std::min(text.find_first_of("\r\n", begin), text.size());
       ++line_;
       check_line(text.substr(begin, end - begin));
-      begin = end + 1;
+      begin = end + (text.substr(end).starts_with("\r\n") ? 2 : 1);
     }
     for (const Range& range : forward_) {
       if (range.last > counts_[range.kind]) fail(file_, range.line, out_of_range(range.kind, range.last));

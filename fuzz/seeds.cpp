@@ -152,7 +152,8 @@ void add_arguments(SeedWriter& seeds) {
 }
 
 // A message of the adapter protocol, one draw of one triangle with all outputs asked for; and a certificate with
-// nothing in it. Their readers' targets find the rest by themselves and by the dictionary.
+// nothing in it, and what was found in text that is no scene. The targets find the rest by themselves and by the
+// dictionary.
 void add_texts(SeedWriter& seeds) {
   constexpr std::uint8_t kWords[] = {31, 4, 4, 1, 0, 0, 0, 1, 0, 3, 1};
   constexpr std::size_t kStateOfDraw = 24, kNumbersOfVertices = 24, kIndicesAndIdentifier = 4;
@@ -166,6 +167,8 @@ void add_texts(SeedWriter& seeds) {
     for (int shift = 0; shift < 32; shift += 8) overflow.push_back(static_cast<std::uint8_t>(word >> shift));
   }
   seeds.add("adapter", "sizes-that-overflow", overflow);
+  // A face on a line that ends, and begins, at a carriage return alone, without vertices.
+  seeds.add("obj", "carriage-returns", std::string_view("o a\rf 5 3 10\r"));
   seeds.add("certificate", "empty", std::string_view("{\"format\": \"surefill-certificate\", \"checks\": []}\n"));
 }
 

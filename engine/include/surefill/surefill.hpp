@@ -248,6 +248,7 @@ struct CoverageBlock {
   int sample;                    // of each pixel
   std::uint64_t mask;            // bit 8 j + i: pixel (x + i, y + j). Not 0
 
+  // Are all 64 samples covered?
   bool full() const { return mask == ~std::uint64_t{0}; }
 };
 

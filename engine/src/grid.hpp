@@ -59,7 +59,6 @@ class SnappedTriangle {
     know_depth_range();
     return depth_range_;
   }
-  const Triangle& unsnapped() const { return triangle_; }
 
   // The part of `limits` with a sample in the box of the snapped polygon. Offsets as for screen_box.
   PixelBox box(PixelBox limits, double least_offset, double largest_offset) const;

@@ -212,7 +212,9 @@ struct Statistics {
   std::uint64_t values_by_filter = 0;
   std::uint64_t values_by_expansion = 0;
 
-  std::uint64_t skipped_draws = 0;  // by a culling box [M6]; their triangles count as outside (fast path)
+  // By a culling box [M6], on the fast path; with several threads, as far as the first one's rows tell. Their triangles
+  // count as outside.
+  std::uint64_t skipped_draws = 0;
 
   const char* path = "";  // what drew the frame: "reference", or the fast path's instruction set; a string constant
 };

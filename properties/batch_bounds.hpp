@@ -58,7 +58,7 @@ class BatchBounds {
     // What a lane does not set must not be looked at.
     std::fill_n(reinterpret_cast<unsigned char*>(&batch_), sizeof batch_, static_cast<unsigned char>(0x7E));
     Statistics statistics;
-    fast::kernels().set_up(job_, 0, count, batch_, statistics);
+    fast::kernels().set_up(job_, fast::BandSet(), 0, count, batch_, statistics);
     if (statistics.triangles != count ||
         statistics.rasterized != static_cast<unsigned>(__builtin_popcount(batch_.live)))
       return "the statistics count lanes";
@@ -211,6 +211,35 @@ class BatchBounds {
     }
   }
 
+  // As cells put it together: high parts are exact, and depth lies between the sums with the two low parts.
+  void depth_in_parts(std::uint32_t lane, const mpq_class& determinant) {
+    const float error = batch_.low_error[lane];
+    const double slopes = std::fabs(batch_.z_x[lane]) + std::fabs(batch_.z_y[lane]);
+    const double largest = std::fabs(batch_.z[lane]) + 18 * slopes;
+    expect(error <= 1.001 * batch_.z_error[lane] + 0x1p-40 * largest + 0x1p-140, "parts add little to the error");
+    expect(error >= batch_.z_error[lane], "the error of the parts holds that of the plane");
+    const auto step = [&](int x, int y, const float(&along_x)[fast::kBatch], const float(&along_y)[fast::kBatch]) {
+      return along_x[lane] * static_cast<float>(x) + along_y[lane] * static_cast<float>(y);
+    };
+    const auto judge = [&](int x, int y) {
+      const int dx = x - origin_x_, dy = y - origin_y_, cx = dx >> 2, cy = dy >> 2;
+      const auto sum = [&](float start, const auto& along_x, const auto& along_y, float offset) {
+        return (start + 4 * step(cx, cy, along_x, along_y)) + (step(dx & 3, dy & 3, along_x, along_y) + offset);
+      };
+      const float high = sum(batch_.high[lane], batch_.high_x, batch_.high_y, 0);
+      const mpq_class exact =
+          mpq_class(batch_.high[lane]) + mpq_class(batch_.high_x[lane]) * dx + mpq_class(batch_.high_y[lane]) * dy;
+      expect(exact == mpq_class(high), "sums of high parts are exact");
+      const float least = sum(batch_.low[lane], batch_.low_x, batch_.low_y, -error),
+                  most = sum(batch_.low[lane], batch_.low_x, batch_.low_y, error);
+      mpq_class real = sum_of(triangle_.exact_depth_numerator(at(x, y))) / determinant;
+      if (job_.greater) real = -real;
+      expect(mpq_class(high) + mpq_class(least) <= real && real <= mpq_class(high) + mpq_class(most),
+             "depth lies between its parts' sums");
+    };
+    for_some_samples(judge);
+  }
+
   void depth(std::uint32_t lane, const Vertex* const (&v)[3]) {
     bool within = true;
     for (const Vertex* vertex : v) within = within && vertex->w > 0 && vertex->z >= 0 && vertex->z <= vertex->w;
@@ -226,6 +255,7 @@ class BatchBounds {
       const double value = z + (zx * (x - origin_x_) + zy * (y - origin_y_));
       expect(abs(real - value) <= error, "the error bound of depth holds");
     });
+    if (has(batch_.small, lane)) depth_in_parts(lane, determinant);
     // A well-shaped triangle in front of the eye.
     double size = 0, terms = 0;
     for (std::size_t i = 0; i < 3; ++i) {

@@ -48,7 +48,7 @@ class Rasterizer {
  private:
   // The triangles of some lanes, in order.
   HWY_NOINLINE void Lanes(std::uint32_t lanes) {
-    if (!bands_.all) lanes &= OwnedLanes();
+    special_ = writer_.AnySpecial(*batch_, batch_->live);
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
       if ((batch_->small >> lane & 1) != 0) {
@@ -56,7 +56,7 @@ class Rasterizer {
         Small(lane);
         continue;
       }
-      DrawCells(1);  // the small ones before it
+      DrawSmall();  // those before it
       if ((batch_->medium >> lane & 1) != 0) {
         Touch(lane);
         Medium(lane);
@@ -64,7 +64,7 @@ class Rasterizer {
         Large(lane);
       }
     }
-    DrawCells(1);
+    DrawSmall();
   }
 
   // The same where some are clipped, or a visitor has to see each.
@@ -107,6 +107,7 @@ class Rasterizer {
     const Batch* const others = batch_;
     Batch fan;
     if (SetUpFan(job_, position, snapped, fan)) {
+      if (!bands_.all) fan.live &= OwnedLanes(bands_, fan, 0, kBatch).any;
       batch_ = &fan;
       Lanes(fan.live);
       batch_ = others;
@@ -128,20 +129,6 @@ class Rasterizer {
     return job_.draw->cull == (front ? Cull::front : Cull::back);
   }
 
-  // The lanes that may reach a band of this set. Without a branch for each: whose a triangle is cannot be guessed.
-  std::uint32_t OwnedLanes() const {
-    std::uint32_t owned = 0;
-    for (std::uint32_t lane = 0; lane < kBatch; ++lane) {
-      const auto first = static_cast<std::uint32_t>(batch_->first_y[lane]) >> kTileLog2,
-                 last = static_cast<std::uint32_t>(batch_->last_y[lane]) >> kTileLog2;
-      const auto reaches = [this](std::uint32_t band) {
-        return static_cast<std::uint32_t>(bands_.owned[band >> 6 & 3] >> (band & 63)) & 1;
-      };
-      owned |= (reaches(first) | reaches(last) | static_cast<std::uint32_t>(last - first > 1)) << lane;
-    }
-    return owned;
-  }
-
   // Small triangles lie anywhere: their cells are asked for a batch ahead. (Inlined: g++ drops calls of functions that
   // only prefetch.)
   HWY_INLINE void Prefetch(const Batch& batch) const {
@@ -158,101 +145,13 @@ class Rasterizer {
     }
   }
 
-  // ---- slots
-  HWY_INLINE void Place(Area& area, int x, int y) const {
-    area.x = x, area.y = y;
-    area.offset = canvas_.offset_of(x, y);
-    area.cell_offset = cell_offsets_[(x >> 2 & 1) + (y >> 1 & 2)];
-  }
-
-  HWY_INLINE void LoadSteps(Slot& slot) {
-    const CellInt d;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto a = hn::Set(d, slot.a[k]), b = hn::Set(d, slot.b[k]);
-      for (std::size_t i = 0; i < 16; i += kCellLanes) {
-        hn::Store(hn::Add(hn::Mul(a, hn::Load(d, kColumn + i)), hn::Mul(b, hn::Load(d, kRow + i))), d,
-                  slot.step[k] + i);
-      }
-    }
-  }
-  // What does not depend on the class.
-  HWY_INLINE void LoadLane(Slot& slot, std::uint32_t lane) {
-    const Batch& batch = *batch_;
-    slot.lane = lane, slot.position = batch.position(lane);
-    if (HWY_UNLIKELY(writer_.looks_at_lanes)) {
-      slot.first_x = batch.first_x[lane], slot.last_x = batch.last_x[lane];
-      slot.first_y = batch.first_y[lane], slot.last_y = batch.last_y[lane];
-    }
-    if (!kDepth) return;
-    slot.z_error = batch.z_error[lane];
-    slot.z_most = std::numeric_limits<float>::infinity();
-    if (HWY_UNLIKELY(job_.draw->grid.has_value())) slot.z_least = batch.z_least[lane], slot.z_most = batch.z_most[lane];
-    slot.slow_depth = (batch.slow_depth >> lane & 1) != 0;
-    slot.clip = (batch.clip >> lane & 1) != 0;
-    slot.special = writer_.IsSpecial(slot);
-  }
-  HWY_INLINE void LoadPlane(Slot& slot, std::uint32_t lane) {
-    const Batch& batch = *batch_;
-    LoadLane(slot, lane);
-    if (!kDepth) return;
-    slot.origin_x = batch.origin_x(lane), slot.origin_y = batch.origin_y(lane);
-    slot.z = batch.z[lane], slot.z_x = batch.z_x[lane], slot.z_y = batch.z_y[lane];
-    const CellDouble dd;
-    const auto zx = hn::Set(dd, slot.z_x), zy = hn::Set(dd, slot.z_y);
-    for (std::size_t i = 0; i < 16; i += hn::Lanes(dd)) {
-      hn::Store(hn::Add(hn::Mul(zx, hn::Load(dd, kColumnDouble + i)), hn::Mul(zy, hn::Load(dd, kRowDouble + i))), dd,
-                slot.z_step + i);
-    }
-    LoadFloatSteps(slot);
-  }
-  HWY_INLINE void LoadBatchEdges(Slot& slot, std::uint32_t lane) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      slot.a[k] = batch_->a[k][lane], slot.b[k] = batch_->b[k][lane], slot.most[k] = batch_->most[k][lane];
-    }
-    slot.doubt = batch_->doubt[lane];
-  }
-
-  HWY_INLINE void LoadFloatSteps(Slot& slot) const {
-    if (kExactDepth) return;
-    for (std::size_t i = 0; i < 16; ++i) slot.z_step_float[i] = static_cast<float>(slot.z_step[i]);
-  }
-
-  // The edges and depths at the cells of an area whose first sample is (x, y), where the edges have the values e and
-  // depth is z.
-  // Returns the cells that are not outside an edge, and in `full` those that are within all.
-  HWY_INLINE std::uint32_t SetUpArea(const Slot& slot, const std::int32_t (&e)[3], double z, int x, int y, Area& area,
-                                     std::uint32_t* full) const {
-    const CellInt d;
-    std::uint32_t outside = 0, cut = 0;
-    for (std::size_t i = 0; i < 16; i += kCellLanes) {
-      auto outside_lanes = hn::Zero(d), cut_lanes = outside_lanes;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto value = hn::Add(hn::Set(d, e[k]), hn::ShiftLeft<2>(hn::Load(d, slot.step[k] + i)));
-        hn::Store(value, d, area.edge[k] + i);
-        outside_lanes = hn::Or(outside_lanes, hn::Add(value, hn::Set(d, slot.most[k])));  // negative if one is
-        cut_lanes = hn::Or(cut_lanes, hn::Add(value, hn::Set(d, slot.least[k])));
-      }
-      outside |= Bits(d, hn::Lt(outside_lanes, hn::Zero(d))) << i;
-      cut |= Bits(d, hn::Lt(cut_lanes, hn::Zero(d))) << i;
-    }
-    *full = ~cut & 0xFFFF;
-    Place(area, x, y);
-    if (kDepth) {
-      const CellDouble dd;
-      const auto start = hn::Set(dd, z), four = hn::Set(dd, 4.0);
-      for (std::size_t i = 0; i < 16; i += hn::Lanes(dd)) {
-        hn::Store(hn::Add(start, hn::Mul(four, hn::Load(dd, slot.z_step + i))), dd, area.z + i);
-      }
-    }
-    return ~outside & 0xFFFF;
-  }
-
   // ---- within 4 x 4 cells: noted, and drawn with the rest of the batch
   HWY_INLINE void Small(std::uint32_t lane) {
     const CellInt d;
+    const CellFloat df;
     const Batch& batch = *batch_;
-    Slot& slot = slots_[lane];
-    Area& area = areas_[lane];
+    const std::size_t at = lane * 16;
+    const int x = batch.first_x[lane] & ~3, y = batch.first_y[lane] & ~3;
     std::uint32_t outside = 0;
     for (std::size_t i = 0; i < 16; i += kCellLanes) {
       const auto column = hn::Load(d, kColumn + i), row = hn::Load(d, kRow + i);
@@ -261,78 +160,127 @@ class Rasterizer {
         const auto step =
             hn::Add(hn::Mul(hn::Set(d, batch.a[k][lane]), column), hn::Mul(hn::Set(d, batch.b[k][lane]), row));
         const auto value = hn::Add(hn::Set(d, batch.e[k][lane]), hn::ShiftLeft<2>(step));
-        hn::Store(step, d, slot.step[k] + i);
-        hn::Store(value, d, area.edge[k] + i);
+        hn::Store(step, d, steps_.edge[k] + at + i);
+        hn::Store(value, d, areas_.edge[k] + at + i);
         lanes = hn::Or(lanes, hn::Add(value, hn::Set(d, batch.most[k][lane])));  // negative if one is
       }
       outside |= Bits(d, hn::Lt(lanes, hn::Zero(d))) << i;
-    }
-    if (kDepth) {
-      const CellDouble dd;
-      const auto z = hn::Set(dd, batch.z[lane]), four = hn::Set(dd, 4.0);
-      const auto zx = hn::Set(dd, batch.z_x[lane]), zy = hn::Set(dd, batch.z_y[lane]);
-      for (std::size_t i = 0; i < 16; i += hn::Lanes(dd)) {
-        const auto step =
-            hn::Add(hn::Mul(zx, hn::Load(dd, kColumnDouble + i)), hn::Mul(zy, hn::Load(dd, kRowDouble + i)));
-        hn::Store(step, dd, slot.z_step + i);
-        hn::Store(hn::Add(z, hn::Mul(four, step)), dd, area.z + i);
+      if (kDepth) {
+        const auto high = LoadDepthSteps(lane, i, batch.high_x[lane], batch.high_y[lane], batch.low_x[lane],
+                                         batch.low_y[lane], batch.low_error[lane]);
+        const auto four = hn::Set(df, 4.0f);
+        hn::Store(hn::Add(hn::Set(df, batch.high[lane]), hn::Mul(four, high.high)), df, areas_.high + at + i);
+        hn::Store(hn::Add(hn::Set(df, batch.low[lane]), hn::Mul(four, high.low)), df, areas_.low + at + i);
       }
-      LoadFloatSteps(slot);
     }
-    LoadLane(slot, lane);
-    slot.doubt = batch.doubt[lane];
-    const int x = batch.first_x[lane] & ~3, y = batch.first_y[lane] & ~3;
-    Place(area, x, y);
+    Place(lane, x, y);
     const int columns = (batch.last_x[lane] - x) >> 2, rows = (batch.last_y[lane] - y) >> 2;
     std::uint32_t cells = ~outside & ((0x2222u << columns) - 0x1111u) & ((0x10u << (4 * rows)) - 1);
-    if (!bands_.all) cells &= OwnedCells(y);
+    if (!bands_.all) cells &= OwnedRows(y, 4);
     partly_.Append(lane, cells);
   }
 
-  // The cells of an area that lie in bands of this set.
-  std::uint32_t OwnedCells(int y) const {
+  // Steps of depth in lanes i ... of a slot's cells.
+  struct DepthSteps {
+    hn::Vec<CellFloat> high, low;
+  };
+  HWY_INLINE DepthSteps LoadDepthSteps(std::size_t slot, std::size_t i, float high_x, float high_y, float low_x,
+                                       float low_y, float error) {
+    const CellFloat df;
+    const auto column = hn::Load(df, kColumnFloat + i), row = hn::Load(df, kRowFloat + i);
+    const auto high = hn::Add(hn::Mul(hn::Set(df, high_x), column), hn::Mul(hn::Set(df, high_y), row));
+    const auto low = hn::Add(hn::Mul(hn::Set(df, low_x), column), hn::Mul(hn::Set(df, low_y), row));
+    const std::size_t at = slot * 16 + i;
+    hn::Store(high, df, steps_.high + at);
+    hn::Store(hn::Sub(low, hn::Set(df, error)), df, steps_.low_least + at);
+    hn::Store(hn::Add(low, hn::Set(df, error)), df, steps_.low_most + at);
+    return {high, low};
+  }
+
+  // Where the cells of area n lie, which begins at (x, y).
+  HWY_INLINE void Place(std::size_t n, int x, int y) {
+    const CellUint d;
+    areas_.x[n] = x, areas_.y[n] = y;
+    const std::uint32_t* const offsets = cell_offsets_[(x >> 2 & 1) + (y >> 1 & 2)];
+    const auto first = hn::Set(d, static_cast<std::uint32_t>(canvas_.offset_of(x, y)));
+    for (std::size_t i = 0; i < 16; i += kCellLanes)
+      hn::Store(hn::Add(first, hn::Load(d, offsets + i)), d, areas_.offset + n * 16 + i);
+  }
+
+  HWY_INLINE void DrawSmall() {
+    if (partly_.size == 0) return;
+    std::int32_t doubt = 0;  // the largest of the batch: at worst, doubts are looked into that are none
+    for (const std::int32_t of_lane : batch_->doubt) doubt = std::max(doubt, of_lane);
+    DrawCells<true>(doubt);
+  }
+
+  // Of four rows of cells, or of areas, those that meet bands of this set.
+  std::uint32_t OwnedRows(int y, int height) const {
     std::uint32_t owned = 0;
     for (int row = 0; row < 4; ++row) {
-      if (bands_.owns((y + 4 * row) >> kTileLog2)) owned |= 0xFu << (4 * row);
+      const int first = y + height * row, last = first + height - 1;
+      if (bands_.owns(first >> kTileLog2) || bands_.owns(last >> kTileLog2)) owned |= 0xFu << (4 * row);
     }
     return owned;
   }
 
   // ---- within 8 x 8 blocks
   void Medium(std::uint32_t lane) {
-    Slot& slot = slots_[0];
-    LoadBatchEdges(slot, lane);
-    LoadSteps(slot);
-    LoadPlane(slot, lane);
-    LoadAreaSteps(slot);
+    Plane plane;
+    for (std::size_t k = 0; k < 3; ++k)
+      plane.a[k] = batch_->a[k][lane], plane.b[k] = batch_->b[k][lane], plane.most[k] = batch_->most[k][lane];
+    plane.doubt = batch_->doubt[lane];
+    LoadPlane(plane, lane);
     const std::int32_t e[3] = {batch_->e[0][lane], batch_->e[1][lane], batch_->e[2][lane]};
-    Tile(slot, lane, e, batch_->first_x[lane] & ~7, batch_->first_y[lane] & ~7);
+    Tile(plane, e, batch_->first_x[lane] & ~7, batch_->first_y[lane] & ~7);
+  }
+
+  // What does not depend on the class.
+  HWY_INLINE void LoadPlane(Plane& plane, std::uint32_t lane) {
+    const Batch& batch = *batch_;
+    const CellInt d;
+    plane.lane = lane;
+    for (std::size_t k = 0; k < 3; ++k) {
+      plane.least[k] = 3 * (std::min(plane.a[k], 0) + std::min(plane.b[k], 0));
+      const auto a = hn::Set(d, plane.a[k]), b = hn::Set(d, plane.b[k]);
+      for (std::size_t i = 0; i < 16; i += kCellLanes) {
+        const auto step = hn::Add(hn::Mul(a, hn::Load(d, kColumn + i)), hn::Mul(b, hn::Load(d, kRow + i)));
+        hn::Store(step, d, steps_.edge[k] + i);
+        hn::Store(hn::ShiftLeft<2>(step), d, cell_step_[k] + i);
+        hn::Store(hn::ShiftLeft<4>(step), d, area_step_[k] + i);
+      }
+    }
+    plane.hides = false;
+    if (!kDepth) return;
+    plane.z = batch.z[lane], plane.z_x = batch.z_x[lane], plane.z_y = batch.z_y[lane];
+    plane.z_error = batch.z_error[lane];
+    plane.origin_x = batch.origin_x(lane), plane.origin_y = batch.origin_y(lane);
+    plane.z_most = job_.draw->grid.has_value() ? batch.z_most[lane] : std::numeric_limits<float>::infinity();
+    // Not where fragments count, or move.
+    plane.hides = !kCount && (batch.slow_depth >> lane & 1) == 0 && !((batch.clip >> lane & 1) != 0 && writer_.clamps);
   }
 
   // ---- larger: tile by tile, with a scale for 64 samples
   void Large(std::uint32_t lane) {
-    Slot& slot = slots_[0];
+    Plane plane;
     double a[3], b[3], c[3], most[3];
     for (std::size_t i = 0; i < 3; ++i) {
       const double ua = batch_->edge_a[i][lane], ub = batch_->edge_b[i][lane];
       const double scale =
           std::ldexp(1.0, kTileExponent - std::ilogb(std::max({std::fabs(ua), std::fabs(ub), 0x1p-400})));
       a[i] = ua * scale, b[i] = ub * scale, c[i] = batch_->edge_c[i][lane] * scale;
-      slot.a[i] = static_cast<std::int32_t>(std::nearbyint(a[i]));
-      slot.b[i] = static_cast<std::int32_t>(std::nearbyint(b[i]));
+      plane.a[i] = static_cast<std::int32_t>(std::nearbyint(a[i]));
+      plane.b[i] = static_cast<std::int32_t>(std::nearbyint(b[i]));
       most[i] = (kTileSize - 1) * (std::max(a[i], 0.0) + std::max(b[i], 0.0)) + 1;  // 1: far more than E's error here
     }
     constexpr std::int32_t kBound = kExactCoverage ? kTileBound : 0;
-    slot.doubt = 2 * kBound;
+    plane.doubt = 2 * kBound;
     for (std::size_t k = 0; k < 3; ++k)
-      slot.most[k] = 3 * (std::max(slot.a[k], 0) + std::max(slot.b[k], 0)) + slot.doubt;
-    LoadSteps(slot);
-    LoadPlane(slot, lane);
-    LoadAreaSteps(slot);
+      plane.most[k] = 3 * (std::max(plane.a[k], 0) + std::max(plane.b[k], 0)) + plane.doubt;
+    LoadPlane(plane, lane);
     const int first_x = batch_->first_x[lane] & ~(kTileSize - 1), first_y = batch_->first_y[lane] & ~(kTileSize - 1);
     const int last_x = batch_->last_x[lane] - (SUREFILL_PLANT(tile_border) ? 1 : 0), last_y = batch_->last_y[lane];
-    const bool hides = Hides(slot);
-    const double dip = kDepth ? Dip(slot, kTileSize - 1) - Slack(slot) : 0;
+    const double dip = kDepth ? Dip(plane, kTileSize - 1) - Slack(plane) : 0;
 
     const DoubleTag d;
     constexpr int kLanes = static_cast<int>(hn::MaxLanes(DoubleTag()));
@@ -350,12 +298,12 @@ class Rasterizer {
           hn::Store(value, d, e[i]);
           possible = hn::And(possible, hn::Ge(value, hn::Set(d, -most[i])));
         }
-        if (hides) {
+        if (plane.hides) {
           const hn::Rebind<float, DoubleTag> df;
-          const auto dx = hn::Sub(column, hn::Set(d, slot.origin_x));
-          const auto nearest = hn::Min(
-              hn::Add(hn::Mul(hn::Set(d, slot.z_x), dx), hn::Set(d, slot.z_y * (ty - slot.origin_y) + (slot.z + dip))),
-              hn::Set(d, slot.z_most));
+          const auto dx = hn::Sub(column, hn::Set(d, plane.origin_x));
+          const auto nearest = hn::Min(hn::Add(hn::Mul(hn::Set(d, plane.z_x), dx),
+                                               hn::Set(d, plane.z_y * (ty - plane.origin_y) + (plane.z + dip))),
+                                       hn::Set(d, plane.z_most));
           const auto far = hn::PromoteTo(d, hn::LoadU(df, canvas_.tile_far + canvas_.tile_of(tx, ty)));
           possible = hn::AndNot(writer_.with_identifiers ? hn::Gt(hn::PromoteTo(d, hn::DemoteTo(df, nearest)), far)
                                                          : hn::Ge(nearest, far),
@@ -369,28 +317,20 @@ class Rasterizer {
           }
           const int x0 = tx + static_cast<int>(n) * kTileSize;
           TouchTile(canvas_.tile_of(x0, ty));
-          if (Tile(slot, lane, at, x0, ty)) UpdateTileFar(x0, ty);
+          if (Tile(plane, at, x0, ty)) UpdateTileFar(x0, ty);
         }
       }
     }
   }
   alignas(64) static constexpr double kTileSteps[8] = {0, 64, 128, 192, 256, 320, 384, 448};
 
-  void LoadAreaSteps(Slot& slot) {
-    const CellInt d;
-    for (std::size_t k = 0; k < 3; ++k) {
-      slot.least[k] = 3 * (std::min(slot.a[k], 0) + std::min(slot.b[k], 0));
-      for (std::size_t i = 0; i < 16; i += kCellLanes)
-        hn::Store(hn::ShiftLeft<4>(hn::Load(d, slot.step[k] + i)), d, area_step_[k] + i);
-    }
-  }
-
   // The 64 x 64 samples from (x, y) on, a multiple of 8, where the edges have the values e. True if block_far has
   // changed.
-  bool Tile(const Slot& slot, std::uint32_t lane, const std::int32_t (&e)[3], int x, int y) {
+  bool Tile(const Plane& plane, const std::int32_t (&e)[3], int x, int y) {
     const CellInt d;
-    const int first_x = batch_->first_x[lane] - x, last_x = batch_->last_x[lane] - x;
-    const int first_y = batch_->first_y[lane] - y, last_y = batch_->last_y[lane] - y;
+    const Batch& batch = *batch_;
+    const int first_x = batch.first_x[plane.lane] - x, last_x = batch.last_x[plane.lane] - x;
+    const int first_y = batch.first_y[plane.lane] - y, last_y = batch.last_y[plane.lane] - y;
     alignas(64) std::int32_t at[3][16];
     std::uint32_t outside = 0;
     for (std::size_t i = 0; i < 16; i += kCellLanes) {
@@ -398,34 +338,36 @@ class Rasterizer {
       for (std::size_t k = 0; k < 3; ++k) {
         const auto value = hn::Add(hn::Set(d, e[k]), hn::Load(d, area_step_[k] + i));
         hn::Store(value, d, at[k] + i);
-        lanes = hn::Or(lanes, hn::Add(value, hn::Set(d, 5 * slot.most[k])));
+        lanes = hn::Or(lanes, hn::Add(value, hn::Set(d, 5 * plane.most[k])));
       }
       outside |= Bits(d, hn::Lt(lanes, hn::Zero(d))) << i;
     }
     std::uint32_t possible = ~outside & Mask4x4(first_x >> 4, last_x >> 4, first_y >> 4, last_y >> 4);
-    const bool hides = Hides(slot);
-    const bool prefetch = (batch_->medium >> lane & 1) != 0;
-    const double dip = kDepth ? Dip(slot, SUREFILL_PLANT(hierarchical_z) ? 6 : 7) : 0;
-    alignas(32) const double dips[4] = {dip, dip + 8 * slot.z_x, dip + 8 * slot.z_y, dip + 8 * (slot.z_x + slot.z_y)};
+    if (!bands_.all) possible &= OwnedRows(y, 16);
+    if (possible == 0) return false;
+    const double dip = kDepth ? Dip(plane, SUREFILL_PLANT(hierarchical_z) ? 6 : 7) : 0;
+    alignas(32)
+        const double dips[4] = {dip, dip + 8 * plane.z_x, dip + 8 * plane.z_y, dip + 8 * (plane.z_x + plane.z_y)};
+    const Splitter<OneDouble> splitter = SplitterOf(plane, x, y);
+    if (kDepth) LoadDepthSteps(plane, splitter);
     std::size_t blocks = 0;
     std::uint32_t block_list[64];  // whole blocks: block_far may become less
     for (; possible != 0; possible &= possible - 1) {
       const auto n = static_cast<std::uint32_t>(__builtin_ctz(possible));
       const int area_x = static_cast<int>(n & 3) * 16, area_y = static_cast<int>(n >> 2) * 16;
       const std::int32_t start[3] = {at[0][n], at[1][n], at[2][n]};
-      Area& area = areas_[n];
       std::uint32_t full;
-      std::uint32_t cells = SetUpArea(slot, start, kDepth ? slot.DepthAt(x + area_x, y + area_y) : 0, x + area_x,
-                                      y + area_y, area, &full);
+      std::uint32_t cells = SetUpArea(plane, start, n, &full);
       if (first_x >= area_x + 4 || last_x < area_x + 12 || first_y >= area_y + 4 || last_y < area_y + 12) {
         cells &=
             Mask4x4((first_x - area_x) >> 2, (last_x - area_x) >> 2, (first_y - area_y) >> 2, (last_y - area_y) >> 2);
       }
-      if (!bands_.all) cells &= OwnedCells(y + area_y);
-      if (hides) {
+      if (!bands_.all) cells &= OwnedRows(y + area_y, 4);
+      const double z = kDepth ? plane.DepthAt(x + area_x, y + area_y) : 0;
+      if (plane.hides) {
         const std::size_t block = canvas_.block_of(x + area_x, y + area_y);
         const auto below = static_cast<std::size_t>(canvas_.blocks_x());
-        cells &= kCellsOfBlocks[VisibleBlocks(slot, area.z[0], dips, canvas_.block_far + block, below)];
+        cells &= kCellsOfBlocks[VisibleBlocks(plane, z, dips, canvas_.block_far + block, below)];
         // Of each whole block, its first cell.
         std::uint32_t whole = cells & full;
         whole &= whole >> 1;
@@ -435,32 +377,87 @@ class Rasterizer {
           block_list[blocks++] = static_cast<std::uint32_t>(block + (cell >> 3) * below + (cell >> 1 & 1));
         }
       }
-      if (kDepth && prefetch) {
-        for (std::uint32_t rest = cells; rest != 0; rest &= rest - 1) {
-          const auto cell = static_cast<std::size_t>(__builtin_ctz(rest));
-          const std::size_t at_cell = area.offset + area.cell_offset[cell];
-          hwy::Prefetch(canvas_.depth + at_cell);
-          if (kWinner) hwy::Prefetch(canvas_.winner + at_cell);
-        }
-      }
+      if (cells == 0) continue;
+      Place(n, x + area_x, y + area_y);
+      if (kDepth) SetUpDepth(splitter, z, n);
       partly_.Append(n, cells & ~full);
       wholly_.Append(n, cells & full);
     }
-    DrawCells(0);
+    plane_lane_ = plane.lane, plane_doubt_ = plane.doubt;
+    DrawCells<false>(plane.doubt);
     DrawWholeCells();
     for (std::size_t i = 0; i < blocks; ++i) UpdateBlockFar(block_list[i]);
     return blocks != 0;
   }
+
+  // The edges at the cells of area n, where they start with the values e. Returns the cells that are not outside an
+  // edge, and in `full` those that are within all.
+  HWY_INLINE std::uint32_t SetUpArea(const Plane& plane, const std::int32_t (&e)[3], std::size_t n,
+                                     std::uint32_t* full) {
+    const CellInt d;
+    std::uint32_t outside = 0, cut = 0;
+    for (std::size_t i = 0; i < 16; i += kCellLanes) {
+      auto outside_lanes = hn::Zero(d), cut_lanes = outside_lanes;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto value = hn::Add(hn::Set(d, e[k]), hn::Load(d, cell_step_[k] + i));
+        hn::Store(value, d, areas_.edge[k] + n * 16 + i);
+        outside_lanes = hn::Or(outside_lanes, hn::Add(value, hn::Set(d, plane.most[k])));  // negative if one is
+        cut_lanes = hn::Or(cut_lanes, hn::Add(value, hn::Set(d, plane.least[k])));
+      }
+      outside |= Bits(d, hn::Lt(outside_lanes, hn::Zero(d))) << i;
+      cut |= Bits(d, hn::Lt(cut_lanes, hn::Zero(d))) << i;
+    }
+    *full = ~cut & 0xFFFF;
+    return ~outside & 0xFFFF;
+  }
+
+  // ---- depth in parts
+  using OneDouble = hn::CappedTag<double, 1>;
+  static HWY_INLINE Splitter<OneDouble> SplitterOf(const Plane& plane, int x, int y) {
+    const double largest =
+        kDepth ? std::fabs(plane.DepthAt(x, y)) + (kTileSize - 1) * (std::fabs(plane.z_x) + std::fabs(plane.z_y)) : 0;
+    return Splitter<OneDouble>(hn::Set(OneDouble(), largest));
+  }
+  struct Parts {
+    float high, low;
+  };
+  static HWY_INLINE Parts Split(const Splitter<OneDouble>& splitter, double v) {
+    typename Splitter<OneDouble>::Part high, low;
+    splitter.Split(hn::Set(OneDouble(), v), high, low);
+    return {hn::GetLane(high), hn::GetLane(low)};
+  }
+  // Of a tile.
+  HWY_INLINE void LoadDepthSteps(const Plane& plane, const Splitter<OneDouble>& splitter) {
+    const CellFloat df;
+    const Parts x = Split(splitter, plane.z_x), y = Split(splitter, plane.z_y);
+    const double error = hn::GetLane(splitter.Error(hn::Set(OneDouble(), plane.z_error)));
+    const bool zero = plane.z == 0 && plane.z_x == 0 && plane.z_y == 0 && plane.z_error == 0;
+    for (std::size_t i = 0; i < 16; i += kCellLanes) {
+      const auto step = LoadDepthSteps(0, i, x.high, y.high, x.low, y.low, zero ? 0.0f : static_cast<float>(error));
+      hn::Store(hn::Mul(step.high, hn::Set(df, 4.0f)), df, cell_high_ + i);
+      hn::Store(hn::Mul(step.low, hn::Set(df, 4.0f)), df, cell_low_ + i);
+    }
+  }
+  // Of the cells of area n, where depth starts with z.
+  HWY_INLINE void SetUpDepth(const Splitter<OneDouble>& splitter, double z, std::size_t n) {
+    const CellFloat df;
+    const Parts start = Split(splitter, z);
+    for (std::size_t i = 0; i < 16; i += kCellLanes) {
+      hn::Store(hn::Add(hn::Set(df, start.high), hn::Load(df, cell_high_ + i)), df, areas_.high + n * 16 + i);
+      hn::Store(hn::Add(hn::Set(df, start.low), hn::Load(df, cell_low_ + i)), df, areas_.low + n * 16 + i);
+    }
+  }
+
   // Which of an area's four blocks may hold something farther than the triangle: bit 0 the upper left one, then to the
   // right, then below; depths that are equal once they are rounded may leave a smaller identifier in front. dips: from
   // the depth at the area's first sample to less than any in each block.
-  HWY_INLINE std::uint32_t VisibleBlocks(const Slot& slot, double z, const double (&dips)[4], const float* far,
+  HWY_INLINE std::uint32_t VisibleBlocks(const Plane& plane, double z, const double (&dips)[4], const float* far,
                                          std::size_t below) const {
 #if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
     const hn::CappedTag<double, 4> d;
     const hn::CappedTag<float, 4> df;
     const hn::CappedTag<float, 2> row;
-    const auto nearest = hn::Min(hn::Add(hn::Set(d, z), hn::Load(d, dips)), hn::Set(d, slot.z_most));
+    const auto nearest = hn::Min(hn::Add(hn::Set(d, z), hn::Load(d, dips)), hn::Set(d, plane.z_most));
     const auto there = hn::PromoteTo(d, hn::Combine(df, hn::LoadU(row, far + below), hn::LoadU(row, far)));
     const auto hidden =
         writer_.with_identifiers ? hn::Gt(hn::PromoteTo(d, hn::DemoteTo(df, nearest)), there) : hn::Ge(nearest, there);
@@ -468,7 +465,7 @@ class Rasterizer {
 #else
     std::uint32_t visible = 0;
     for (std::size_t i = 0; i < 4; ++i) {
-      const double nearest = std::min<double>(z + dips[i], slot.z_most), there = far[(i >> 1) * below + (i & 1)];
+      const double nearest = std::min<double>(z + dips[i], plane.z_most), there = far[(i >> 1) * below + (i & 1)];
       visible |= static_cast<std::uint32_t>(
                      !(writer_.with_identifiers ? static_cast<float>(nearest) > there : nearest >= there))
                  << i;
@@ -482,88 +479,156 @@ class Rasterizer {
 
   // ---- cells
   // The least of the three edge values in lanes i ... of a cell.
-  HWY_INLINE hn::Vec<CellInt> LeastEdge(const Slot& slot, const Area& area, std::size_t cell, std::size_t i) const {
+  HWY_INLINE hn::Vec<CellInt> LeastEdge(std::size_t item, std::size_t steps) const {
     const CellInt d;
-    const auto e0 = hn::Add(hn::Set(d, area.edge[0][cell]), hn::Load(d, slot.step[0] + i));
-    const auto e1 = hn::Add(hn::Set(d, area.edge[1][cell]), hn::Load(d, slot.step[1] + i));
-    const auto e2 = hn::Add(hn::Set(d, area.edge[2][cell]), hn::Load(d, slot.step[2] + i));
+    const auto e0 = hn::Add(hn::Set(d, areas_.edge[0][item]), hn::Load(d, steps_.edge[0] + steps));
+    const auto e1 = hn::Add(hn::Set(d, areas_.edge[1][item]), hn::Load(d, steps_.edge[1] + steps));
+    const auto e2 = hn::Add(hn::Set(d, areas_.edge[2][item]), hn::Load(d, steps_.edge[2] + steps));
     return hn::Min(hn::Min(e0, e1), e2);
   }
-  // -2 bound <= value < 0.
-  HWY_INLINE hn::Mask<CellUint> Doubtful(hn::Vec<CellInt> value, std::int32_t doubt) const {
-    const CellInt d;
-    const CellUint du;
-    const auto bound = hn::Set(d, doubt);
-    return hn::Lt(hn::BitCast(du, hn::Add(value, bound)), hn::BitCast(du, bound));
+  // Depth lies between these two.
+  HWY_INLINE hn::Vec<CellFloat> LeastDepth(std::size_t item, std::size_t steps) const {
+    return DepthOf(item, steps, steps_.low_least);
+  }
+  HWY_INLINE hn::Vec<CellFloat> MostDepth(std::size_t item, std::size_t steps) const {
+    return DepthOf(item, steps, steps_.low_most);
+  }
+  HWY_INLINE hn::Vec<CellFloat> DepthOf(std::size_t item, std::size_t steps, const float* low) const {
+    const CellFloat df;
+    if (!kDepth) return hn::Zero(df);
+    const auto high = hn::Add(hn::Set(df, areas_.high[item]), hn::Load(df, steps_.high + steps));
+    if (!kExactDepth) return high;
+    return hn::Add(high, hn::Add(hn::Set(df, areas_.low[item]), hn::Load(df, low + steps)));
+  }
+  // Of the item's cell: the lane of the batch, and where its steps begin. kSmall: each area has its own slot.
+  template <bool kSmall>
+  HWY_INLINE std::uint32_t LaneOf(std::size_t item) const {
+    return kSmall ? static_cast<std::uint32_t>(item >> 4) : plane_lane_;
   }
 
-  // Draws the cells that an edge may cut: the lanes that are surely inside, and in the end those within the bound of an
-  // edge. slots: 1 if each area has its own slot, 0 if all have the first.
-  void DrawCells(std::size_t slots) {
+  template <bool kSmall>
+  HWY_INLINE std::int32_t DoubtOf(std::uint32_t lane) const {
+    return kSmall ? batch_->doubt[lane] : plane_doubt_;
+  }
+
+  // Draws the cells that an edge may cut: the lanes that are surely inside, and in the end those within `doubt` of an
+  // edge. kSmall: of all small triangles that were noted.
+  template <bool kSmall>
+  HWY_NOINLINE void DrawCells(std::int32_t doubt) {
+    if (HWY_UNLIKELY(special_)) {
+      for (std::size_t n = 0; n < partly_.size; ++n) DrawSpecial<kSmall, false>(partly_.items[n]);
+      partly_.size = 0;
+      return;
+    }
     const CellInt d;
     const CellUint du;
-    auto doubtful = hn::Lt(hn::Zero(du), hn::Zero(du));
+    const CellFloat df;
+    auto closest = hn::Zero(du);  // the largest value below 0, as it is the largest without a sign
     for (std::size_t n = 0; n < partly_.size; ++n) {
-      const std::size_t number = partly_.items[n] >> 4, cell = partly_.items[n] & 15;
-      const Slot& slot = slots_[number * slots];
-      const Area& area = areas_[number];
-      const std::size_t offset = area.offset + area.cell_offset[cell];
+      const std::size_t item = partly_.items[n], steps = kSmall ? item & 0xF0 : 0;
+      const std::size_t offset = areas_.offset[item];
+      const auto ordinal = hn::Set(du, writer_.Ordinal(batch_->position(LaneOf<kSmall>(item))));
       for (std::size_t i = 0; i < 16; i += kCellLanes) {
-        const auto value = LeastEdge(slot, area, cell, i);
-        if (kExactCoverage) doubtful = hn::Or(doubtful, Doubtful(value, slot.doubt));
-        writer_.template Fragments<false>(slot, area, cell, hn::Not(hn::Lt(value, hn::Zero(d))), offset, i);
+        const auto value = LeastEdge(item, steps + i);
+        closest = hn::Max(closest, hn::BitCast(du, value));
+        const auto covered = hn::Not(hn::Lt(value, hn::Zero(d)));
+        if constexpr (kDepth) {
+          const auto unknown =
+              writer_.template Fragments<false, false>(hn::RebindMask(df, covered), LeastDepth(item, steps + i),
+                                                       MostDepth(item, steps + i), ordinal, offset + i);
+          if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) SlowLanes<kSmall>(item, Bits(df, unknown) << i);
+        } else {
+          writer_.Count(covered, offset + i);
+        }
       }
     }
-    if (HWY_UNLIKELY(!hn::AllFalse(du, doubtful))) Settle(slots);
+    if (kExactCoverage && HWY_UNLIKELY(!hn::AllFalse(du, IsDoubtful(closest, doubt)))) {
+      for (std::size_t n = 0; n < partly_.size; ++n) {
+        const std::size_t item = partly_.items[n];
+        for (std::size_t i = 0; i < 16; i += kCellLanes)
+          Settle<kSmall>(item, LeastEdge(item, (kSmall ? item & 0xF0 : 0) + i), i);
+      }
+    }
     partly_.size = 0;
   }
 
   // Draws the cells that all edges hold whole.
-  void DrawWholeCells() {
-    const CellInt d;
-    const auto all = hn::Eq(hn::Zero(d), hn::Zero(d));
+  HWY_NOINLINE void DrawWholeCells() {
+    if (HWY_UNLIKELY(special_)) {
+      for (std::size_t n = 0; n < wholly_.size; ++n) DrawSpecial<false, true>(wholly_.items[n]);
+      wholly_.size = 0;
+      return;
+    }
+    const CellUint du;
+    const CellFloat df;
+    const auto all = hn::Eq(hn::Zero(df), hn::Zero(df));
+    const auto ordinal = hn::Set(du, writer_.Ordinal(batch_->position(plane_lane_)));
     for (std::size_t n = 0; n < wholly_.size; ++n) {
-      const Area& area = areas_[wholly_.items[n] >> 4];
-      const std::size_t cell = wholly_.items[n] & 15;
-      const std::size_t offset = area.offset + area.cell_offset[cell];
-      for (std::size_t i = 0; i < 16; i += kCellLanes)
-        writer_.template Fragments<true>(slots_[0], area, cell, all, offset, i);
+      const std::size_t item = wholly_.items[n], offset = areas_.offset[item];
+      for (std::size_t i = 0; i < 16; i += kCellLanes) {
+        if constexpr (kDepth) {
+          const auto unknown = writer_.template Fragments<false, true>(all, LeastDepth(item, i), MostDepth(item, i),
+                                                                       ordinal, offset + i);
+          if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) SlowLanes<false>(item, Bits(df, unknown) << i);
+        } else {
+          writer_.Count(hn::RebindMask(CellInt(), all), offset + i);
+        }
+      }
     }
     wholly_.size = 0;
   }
 
-  // ---- uncertain lanes: within the doubt of an edge
-  HWY_NOINLINE void Settle(std::size_t slots) {
+  // -doubt <= value < 0, as numbers without a sign.
+  static HWY_INLINE hn::Mask<CellUint> IsDoubtful(hn::Vec<CellUint> value, std::int32_t doubt) {
     const CellUint du;
-    for (std::size_t n = 0; n < partly_.size; ++n) {
-      const std::size_t number = partly_.items[n] >> 4, cell = partly_.items[n] & 15;
-      const Slot& slot = slots_[number * slots];
-      const Area& area = areas_[number];
-      const int cell_x = area.CellX(cell), cell_y = area.CellY(cell);
-      for (std::size_t i = 0; i < 16; i += kCellLanes) {
-        auto bits = Bits(du, Doubtful(LeastEdge(slot, area, cell, i), slot.doubt)) << i;
-        for (; bits != 0; bits &= bits - 1) {
-          const int k = __builtin_ctz(bits), x = cell_x + (k & 3), y = cell_y + (k >> 2);
-          if (writer_.Covers(slot, *batch_, x, y)) writer_.SlowFragment(slot, x, y);
-        }
-      }
+    return hn::Gt(value, hn::Set(du, ~static_cast<std::uint32_t>(doubt)));
+  }
+
+  // Lanes i ... of a cell that are within the doubt of an edge; the least edge values are known.
+  template <bool kSmall>
+  HWY_INLINE void Settle(std::size_t item, hn::Vec<CellInt> value, std::size_t i) {
+    const CellUint du;
+    const std::uint32_t lane = LaneOf<kSmall>(item);
+    const auto bits = Bits(du, IsDoubtful(hn::BitCast(du, value), DoubtOf<kSmall>(lane)));
+    if (HWY_UNLIKELY(bits != 0)) SettleLanes(item, lane, bits << i);
+  }
+  HWY_NOINLINE void SettleLanes(std::size_t item, std::uint32_t lane, std::uint32_t bits) {
+    for (; bits != 0; bits &= bits - 1) {
+      const int k = __builtin_ctz(bits), x = areas_.CellX(item) + (k & 3), y = areas_.CellY(item) + (k >> 2);
+      if (writer_.Covers(*batch_, lane, x, y)) writer_.SlowFragment(batch_->position(lane), x, y);
+    }
+  }
+  // Covered lanes of a cell whose depth is not known.
+  template <bool kSmall>
+  HWY_NOINLINE void SlowLanes(std::size_t item, std::uint32_t bits) {
+    writer_.SlowLanes(batch_->position(LaneOf<kSmall>(item)), bits, areas_.CellX(item), areas_.CellY(item));
+  }
+
+  // A cell that is not drawn as most are, at once.
+  template <bool kSmall, bool kWhole>
+  HWY_INLINE void DrawSpecial(std::size_t item) {
+    const CellInt d;
+    const std::size_t steps = kSmall ? item & 0xF0 : 0;
+    const std::uint32_t lane = LaneOf<kSmall>(item);
+    for (std::size_t i = 0; i < 16; i += kCellLanes) {
+      const auto value = LeastEdge(item, steps + i);
+      const auto covered = kWhole ? hn::Eq(value, value) : hn::Not(hn::Lt(value, hn::Zero(d)));
+      writer_.SpecialFragments(*batch_, lane, covered, LeastDepth(item, steps + i), MostDepth(item, steps + i),
+                               areas_.CellX(item), areas_.CellY(item), areas_.offset[item], i);
+      if (kExactCoverage && !kWhole) Settle<kSmall>(item, value, i);
     }
   }
 
   // ---- hierarchical z
-  // Can a block or tile be skipped because all it holds is nearer? Not where fragments count, or move.
-  bool Hides(const Slot& slot) const {
-    return kDepth && !kCount && !slot.slow_depth && !(slot.clip && writer_.clamps);
-  }
   // From the depth at a first sample to less than any within `reach` steps each way, errors included; the last term is
   // for a first sample outside the triangle's box.
-  double Dip(const Slot& slot, double reach) const {
-    return std::min(0.0, reach * slot.z_x) + std::min(0.0, reach * slot.z_y) - slot.z_error -
-           0x1p-40 * reach * (std::fabs(slot.z_x) + std::fabs(slot.z_y));
+  double Dip(const Plane& plane, double reach) const {
+    return std::min(0.0, reach * plane.z_x) + std::min(0.0, reach * plane.z_y) - plane.z_error -
+           0x1p-40 * reach * (std::fabs(plane.z_x) + std::fabs(plane.z_y));
   }
   // The same for the depth at a tile's first sample, wherever the triangle's origin is.
-  double Slack(const Slot& slot) const {
-    return 0x1p-40 * (std::fabs(slot.z) + (std::fabs(slot.z_x) + std::fabs(slot.z_y)) * kMaxTargetSize);
+  double Slack(const Plane& plane) const {
+    return 0x1p-40 * (std::fabs(plane.z) + (std::fabs(plane.z_x) + std::fabs(plane.z_y)) * kMaxTargetSize);
   }
 
   HWY_INLINE void UpdateBlockFar(std::size_t block) {
@@ -590,10 +655,14 @@ class Rasterizer {
   FragmentWriter<kDepth, kWinner, kCount> writer_;
 
   const Batch* batch_ = nullptr;
-  Slot slots_[kBatch];
-  Area areas_[16];
-  alignas(64) std::int32_t area_step_[3][16];  // edge functions: from the first sample of a tile to those of its areas
-  std::uint32_t cell_offsets_[4][16];
+  bool special_ = false;          // some lanes are not drawn as most are
+  std::uint32_t plane_lane_ = 0;  // of what is drawn tile by tile
+  std::int32_t plane_doubt_ = 0;
+  Steps steps_;
+  Areas areas_;
+  alignas(64) std::int32_t cell_step_[3][16], area_step_[3][16];  // edge functions: to cells of an area, to areas
+  alignas(64) float cell_high_[16], cell_low_[16];                // depth: to the cells of an area
+  alignas(64) std::uint32_t cell_offsets_[4][16];
   CellList partly_, wholly_;
 };
 

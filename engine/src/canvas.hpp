@@ -10,6 +10,7 @@
 #ifndef SUREFILL_SRC_CANVAS_HPP
 #define SUREFILL_SRC_CANVAS_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -96,6 +97,9 @@ struct alignas(64) Batch {
   // Depth at the origin's first sample, its steps, and a bound of the error at any sample of the box. Smaller is
   // nearer: negated for DepthTest::greater.
   alignas(64) double z[kBatch], z_x[kBatch], z_y[kBatch], z_error[kBatch];
+  // Of small lanes the same in high and low parts, with the error bound of a value that is put together from them.
+  alignas(32) float high[kBatch], high_x[kBatch], high_y[kBatch], low[kBatch], low_x[kBatch], low_y[kBatch];
+  alignas(32) float low_error[kBatch];
   alignas(64) double edge_a[3][kBatch], edge_b[3][kBatch], edge_c[3][kBatch];  // unscaled; of lanes that are not small
 
   // Grid only: the snapped corners in pixels, and the range that depth is clamped to.
@@ -138,23 +142,29 @@ struct ShadeJob {
   std::size_t sample_number;      // within a pixel
 };
 
-// The bands that one thread draws at a time: every `sets`-th.
+// The bands that one thread draws: of runs of neighbours, every `sets`-th. Long runs are cut by few triangles, many are
+// shared out evenly.
 struct BandSet {
-  std::uint64_t owned[kMaxTargetSize / kTileSize / 64] = {};
+  std::uint64_t owned[kMaxTargetSize / kTileSize / 64 + 1] = {};  // the last is for rows beyond
   bool all = true;
   int number = 0;  // of the thread
 
-  BandSet(int set, int sets) : all(sets == 1), number(set) {
-    for (int band = set; band < kMaxTargetSize / kTileSize; band += sets)
-      owned[band >> 6] |= std::uint64_t{1} << (band & 63);
+  BandSet() = default;  // all
+  BandSet(int set, int sets, int bands) : all(sets == 1), number(set) {
+    const int run = std::max(1, bands / (4 * sets));
+    for (int band = 0; band < kMaxTargetSize / kTileSize; ++band) {
+      if (band / run % sets == set) owned[band >> 6] |= std::uint64_t{1} << (band & 63);
+    }
   }
-  bool owns(int band) const { return (owned[band >> 6] >> (band & 63) & 1) != 0; }
+  bool owns(int band) const { return all || (owned[band >> 6] >> (band & 63) & 1) != 0; }
 };
 
 // The vector code for one instruction set.
 struct Kernels {
-  // Sets up the triangles [first, first + count) of a draw, count <= kBatch, and counts them.
-  void (*set_up)(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& batch, Statistics& statistics);
+  // Sets up the triangles [first, first + count) of a draw, count <= kBatch, as far as they reach bands of a set;
+  // counts each for one of the sets.
+  void (*set_up)(const DrawJob& job, const BandSet& bands, std::uint32_t first, std::uint32_t count, Batch& batch,
+                 Statistics& statistics);
   // Draws batches of one draw, in order.
   void (*rasterize)(const DrawJob& job, std::span<const Batch> batches, const Canvas& canvas, const BandSet& bands,
                     Statistics& statistics);

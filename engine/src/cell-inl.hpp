@@ -11,8 +11,7 @@
 
 #include <cstring>
 
-#include "canvas.hpp"
-#include "hwy/highway.h"
+#include "edges-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
@@ -32,8 +31,8 @@ constexpr std::size_t kCellLanes = hn::MaxLanes(CellInt());
 // Sample k of a cell is (k & 3, k >> 2); so is cell k of an area of 16 x 16 samples, and area k of a tile.
 alignas(64) constexpr std::int32_t kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-alignas(64) constexpr double kColumnDouble[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-alignas(64) constexpr double kRowDouble[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+alignas(64) constexpr float kColumnFloat[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
+alignas(64) constexpr float kRowFloat[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
 // Bits of the columns [first, last] and rows [first, last] of a 4 x 4 arrangement; the ranges are cut to 0..3.
 inline std::uint32_t Mask4x4(int column0, int column1, int row0, int row1) {
@@ -58,15 +57,15 @@ struct BitPositions {
 };
 constexpr BitPositions kBitPositions;
 
-// Cells to be drawn: slot * 16 + number of the cell in the slot's area. Without a branch for each cell: how many there
-// are is what a processor cannot guess.
+// Cells to be drawn: area * 16 + number of the cell in the area. Without a branch for each cell: how many there are is
+// what a processor cannot guess.
 struct CellList {
-  std::uint8_t items[256 + 16];
+  std::uint8_t items[256 + 16] = {};
   std::size_t size = 0;
 
-  void Append(std::size_t slot, std::uint32_t cells) {
+  void Append(std::size_t area, std::uint32_t cells) {
     const std::uint32_t low = cells & 0xFF, high = cells >> 8;
-    const std::uint64_t base = slot * 16 * 0x0101010101010101u;
+    const std::uint64_t base = area * 16 * 0x0101010101010101u;
     const std::uint64_t first = kBitPositions.of[low] + base;
     const std::uint64_t second = kBitPositions.of[high] + base + 0x0808080808080808u;
     const std::size_t begin = size, middle = begin + static_cast<std::size_t>(__builtin_popcount(low));
@@ -76,51 +75,41 @@ struct CellList {
   }
 };
 
-// Sixteen depths of a cell: base + lanes, rounded to float32. -0 becomes +0.
-HWY_INLINE hn::Vec<CellFloat> RoundDepths(double base, const double* lanes) {
-  const CellFloat df;
-  const CellDouble dd;
-  const hn::Rebind<float, CellDouble> dh;
-  const auto start = hn::Set(dd, base);
-#if HWY_TARGET == HWY_SCALAR
-  const auto rounded = hn::DemoteTo(dh, hn::Add(start, hn::Load(dd, lanes)));
-#else
-  const auto low = hn::DemoteTo(dh, hn::Add(start, hn::Load(dd, lanes)));
-  const auto high = hn::DemoteTo(dh, hn::Add(start, hn::Load(dd, lanes + hn::Lanes(dd))));
-  const auto rounded = hn::Combine(df, high, low);
-#endif
-  return hn::Add(rounded, hn::Zero(df));
-}
+// Steps from the first sample of a cell to its others, 16 to a slot. Small triangles of a batch have a slot each, all
+// others use the first.
+//
+// Depth has two parts. High parts are multiples of one quantum, so few of them that their sums are exact; low parts are
+// what is left, here less and plus the bound of the whole error. So depth lies between high + low_least and high +
+// low_most, and if both are rounded to the same float32, that is the stored depth (docs/precision.md).
+struct Steps {
+  alignas(64) std::int32_t edge[3][kBatch * 16];
+  alignas(64) float high[kBatch * 16], low_least[kBatch * 16], low_most[kBatch * 16];
+};
 
-// A triangle, as its cells need it. Small triangles of a batch have one each, all others use the first.
-struct Slot {
-  alignas(64) std::int32_t step[3][16];  // edge functions: from the first sample of a cell to its others
-  alignas(64) double z_step[16];         // depth: the same
-  alignas(64) float z_step_float[16];    // only where depth is not exact
-  double z, z_x, z_y, z_error;
-  int origin_x, origin_y;  // where depth is z
-  std::int32_t a[3], b[3];
-  std::int32_t most[3], least[3];  // largest and smallest change of an edge function within a cell; most: and `doubt`
+// Areas of 16 x 16 samples: of small triangles, each at the place of its slot, or the sixteen of a tile. At the first
+// sample of each cell:
+struct Areas {
+  alignas(64) std::int32_t edge[3][256];
+  alignas(64) float high[256], low[256];
+  alignas(64) std::uint32_t offset[256];  // in the canvas
+  int x[16], y[16];                       // first sample of the area
+
+  int CellX(std::size_t item) const { return x[item >> 4] + static_cast<int>(item & 3) * 4; }
+  int CellY(std::size_t item) const { return y[item >> 4] + static_cast<int>(item >> 2 & 3) * 4; }
+};
+
+// A triangle that is drawn tile by tile.
+struct Plane {
+  std::int32_t a[3], b[3];         // edge functions: steps of one sample
+  std::int32_t most[3], least[3];  // their largest and smallest change within a cell; most: and `doubt`
   std::int32_t doubt;              // as in Batch
   std::uint32_t lane;              // of the batch
-  std::uint32_t position;          // in the draw
-  float z_least, z_most;           // of a snapped triangle; else z_most is infinite
-  int first_x, last_x, first_y, last_y;  // only where lanes are looked at: samples that the triangle can cover
-  bool slow_depth, clip;
-  bool special;  // not drawn as most are
+  double z, z_x, z_y, z_error;     // depth at the origin, its steps, its error
+  int origin_x, origin_y;
+  float z_most;  // no depth is larger: infinite, but under Grid
+  bool hides;    // may what lies behind the canvas's depth be left out?
 
   double DepthAt(int x, int y) const { return z + (z_x * (x - origin_x) + z_y * (y - origin_y)); }
-};
-// An area of 16 x 16 samples: of a small triangle, or a sixteenth of a tile.
-struct Area {
-  alignas(64) std::int32_t edge[3][16];  // at the first sample of each cell
-  alignas(64) double z[16];              // the same
-  int x, y;                              // the first sample
-  std::size_t offset;                    // of the first sample
-  const std::uint32_t* cell_offset;      // and from there to each cell
-
-  int CellX(std::size_t cell) const { return x + static_cast<int>(cell & 3) * 4; }
-  int CellY(std::size_t cell) const { return y + static_cast<int>(cell >> 2) * 4; }
 };
 
 }  // namespace surefill::fast::HWY_NAMESPACE

@@ -49,18 +49,26 @@ struct Corner {
   Float x, y, z, w;
 };
 
-// vertices[l]: the vertex of lane l, four floats.
+// The vertices of a batch: of lane l, those that indices[3 l ...] name.
+struct BatchVertices {
+  const Vertex* vertices;
+  const std::uint32_t* indices;
+
+  const Vertex& of(std::size_t lane, std::size_t k) const { return vertices[indices[3 * lane + k]]; }
+};
+
+// Vertex k of lanes lane ...
 template <class D>
-HWY_INLINE Corner LoadCorner(D d, const Vertex* const* vertices) {
+HWY_INLINE Corner LoadCorner(D d, const BatchVertices& of, std::size_t lane, std::size_t k) {
   Corner corner;
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (hn::MaxLanes(D()) >= 4) {
     const hn::Repartition<double, D> d64;
     const auto row = [&](std::size_t l) {
       const hn::CappedTag<float, 4> d4;
-      const auto low = hn::LoadU(d4, &vertices[l]->x);
+      const auto low = hn::LoadU(d4, &of.of(lane + l, k).x);
       if constexpr (hn::MaxLanes(D()) == 8) {
-        return hn::Combine(d, hn::LoadU(d4, &vertices[l + 4]->x), low);
+        return hn::Combine(d, hn::LoadU(d4, &of.of(lane + l + 4, k).x), low);
       } else {
         return low;
       }
@@ -78,7 +86,7 @@ HWY_INLINE Corner LoadCorner(D d, const Vertex* const* vertices) {
   }
 #endif
   alignas(16) float lanes[4 * hn::MaxLanes(D())];
-  for (std::size_t l = 0; l < hn::Lanes(d); ++l) std::memcpy(lanes + 4 * l, vertices[l], sizeof(Vertex));
+  for (std::size_t l = 0; l < hn::Lanes(d); ++l) std::memcpy(lanes + 4 * l, &of.of(lane + l, k), sizeof(Vertex));
   hn::LoadInterleaved4(d, lanes, corner.x, corner.y, corner.z, corner.w);
   return corner;
 }
@@ -180,14 +188,15 @@ HWY_INLINE hn::Mask<DoubleTag> DifferenceIsExact(Double p, Double q, Double r) {
 
 // The signs of D in the uncertain lanes, exactly; `degenerate` gets the lanes where it is 0.
 HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(const Draw& draw, std::uint32_t first, std::uint32_t uncertain,
-                                            hn::Mask<DoubleTag> negative, std::uint32_t& degenerate,
-                                            Statistics& statistics) {
+                                            std::uint32_t counted, hn::Mask<DoubleTag> negative,
+                                            std::uint32_t& degenerate, Statistics& statistics) {
   const DoubleTag dd;
   alignas(64) double signs[kBatch];
   hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
   for (; uncertain != 0; uncertain &= uncertain - 1) {
     const auto lane = static_cast<std::uint32_t>(__builtin_ctz(uncertain));
-    const int sign = orientation(draw, first + lane, statistics);
+    Statistics not_counted;
+    const int sign = orientation(draw, first + lane, (counted >> lane & 1) != 0 ? statistics : not_counted);
     signs[lane] = sign < 0 ? -1 : 1;
     if (sign == 0) degenerate |= 1u << lane;
   }
@@ -244,6 +253,37 @@ HWY_INLINE void Determinant(const Double (&w)[3], const Edges& edges, Double& de
         error, hn::Add(hn::Mul(hn::Abs(w[i]), edges.error[i]), hn::Mul(hn::Set(dd, kEdgeErrorBound), hn::Abs(we))));
   }
 }
+
+// Splits values up to `largest` in amount in two: a multiple of a quantum, 2^-22 times the power of two at or below
+// `largest`, so that float32 sums of high parts are exact; and what is left. error: what an area's arithmetic in low
+// parts adds to an error, and enough that the sum may be rounded to float32 (docs/precision.md).
+template <class D>
+class Splitter {
+ public:
+  using V = hn::Vec<D>;
+  using Part = hn::Vec<hn::Rebind<float, D>>;
+
+  HWY_INLINE explicit Splitter(V largest) {
+    const hn::RebindToUnsigned<D> du;
+    largest = hn::Max(largest, hn::Set(D(), 0x1p-100));
+    power_ = hn::BitCast(D(), hn::And(hn::BitCast(du, largest), hn::Set(du, 0x7FF0000000000000u)));
+    magic_ = hn::Mul(power_, hn::Set(D(), 0x1.8p30));
+  }
+  HWY_INLINE void Split(V v, Part& high, Part& low) const {
+    const hn::Rebind<float, D> df;
+    const V whole = hn::Sub(hn::Add(v, magic_), magic_);
+    high = hn::Add(hn::DemoteTo(df, whole), hn::Zero(df));  // no -0: then no sum of parts is -0
+    low = hn::DemoteTo(df, hn::Sub(v, whole));
+  }
+  HWY_INLINE V Error(V error) const {
+    const V sum = hn::Add(error, hn::Mul(power_, hn::Set(D(), kSplitError)));
+    return hn::Add(hn::Mul(sum, hn::Set(D(), 1 + 0x1p-20)), hn::Set(D(), 0x1p-146));
+  }
+
+ private:
+  static constexpr double kSplitError = 56 * 0x1p-46;  // 56 units of 2^-24 quantum
+  V power_, magic_;
+};
 
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();

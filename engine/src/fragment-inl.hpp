@@ -30,10 +30,10 @@ class FragmentWriter {
     // Else what lies beyond the target is drawn where nobody looks.
     if (draw_.scissor || canvas.masks != nullptr) {
       const PixelBox& r = job.region;
-      looks_at_lanes = ((r.x0 | r.y0) & 3) != 0 || (r.x1 & 3) != 0 || (r.y1 & 3) != 0;
+      looks_at_lanes_ = ((r.x0 | r.y0) & 3) != 0 || (r.x1 & 3) != 0 || (r.y1 & 3) != 0;
     }
     // Moved outwards, two edges meet beyond the triangle's corner.
-    looks_at_lanes = looks_at_lanes || draw_.conservative == Conservative::over;
+    looks_at_lanes_ = looks_at_lanes_ || draw_.conservative == Conservative::over;
     with_identifiers = kWinner && !draw_.identifiers.empty();
     snaps_ = kDepth && draw_.grid.has_value();
     ordered_ = with_identifiers || !draw_.depth_write;
@@ -41,22 +41,24 @@ class FragmentWriter {
     clamps = draw_.depth_mode == DepthMode::clamp;
   }
 
-  // Not drawn as most are?
-  bool IsSpecial(const Slot& slot) const { return kCount || ordered_ || snaps_ || slot.slow_depth || slot.clip; }
+  // Is one of the lanes drawn in another way than most?
+  bool AnySpecial(const Batch& batch, std::uint32_t lanes) const {
+    if (looks_at_lanes_) return true;
+    return kDepth && (kCount || ordered_ || snaps_ || ((batch.slow_depth | batch.clip) & lanes) != 0);
+  }
 
-  // Does the triangle of the slot, a lane of the batch, cover the sample (x, y)? Exactly.
-  bool Covers(const Slot& slot, const Batch& batch, int x, int y) {
+  // Does the triangle in a lane of the batch cover the sample (x, y)? Exactly.
+  bool Covers(const Batch& batch, std::uint32_t lane, int x, int y) {
     const PixelBox& r = job_.region;
     if (x < r.x0 || x >= r.x1 || y < r.y0 || y >= r.y1) return false;
-    if (draw_.grid) return SnappedCovers(*draw_.grid, batch, slot.lane, Position(x, y), job_.shift);
-    exact_.use(draw_, slot.position);
+    if (draw_.grid) return SnappedCovers(*draw_.grid, batch, lane, Position(x, y), job_.shift);
+    exact_.use(draw_, batch.position(lane));
     return draw_.conservative == Conservative::none ? exact_.covers(Position(x, y), job_.shift, statistics_)
                                                     : exact_.counts_square(x, y, statistics_);
   }
 
   // A covered sample that is drawn by exact arithmetic alone.
-  HWY_NOINLINE void SlowFragment(const Slot& slot, int x, int y) { SlowFragment(slot.position, x, y); }
-  void SlowFragment(std::uint32_t position, int x, int y) {
+  HWY_NOINLINE void SlowFragment(std::uint32_t position, int x, int y) {
     const std::size_t offset = canvas_.offset_of(x, y);
     float z = 0;
     if (kDepth) {
@@ -74,61 +76,54 @@ class FragmentWriter {
     return exact_.snapped();
   }
 
-  // Lanes i ... of a cell. kSkip: leave early where nothing is seen, which pays where that is likely.
-  template <bool kSkip>
-  HWY_INLINE void Fragments(const Slot& slot, const Area& area, std::size_t cell, hn::Mask<CellInt> covered,
-                            std::size_t offset, std::size_t i) {
-    if (HWY_UNLIKELY(looks_at_lanes))
-      covered = hn::And(covered, LanesInBox(slot, area.CellX(cell), area.CellY(cell), i));
+  // Covered lanes at `at` whose depth lies between low and high. Returns those of which more must be known. kTies: a
+  // triangle with a larger ordinal may have been drawn before. kSkip: leave early where nothing is seen, which pays
+  // where that is likely.
+  template <bool kTies, bool kSkip>
+  HWY_INLINE hn::Mask<CellFloat> Fragments(hn::Mask<CellFloat> lanes, hn::Vec<CellFloat> low, hn::Vec<CellFloat> high,
+                                           hn::Vec<CellUint> ordinal, std::size_t at) const {
+    const CellFloat df;
+    float* const depth = canvas_.depth + at;
+    const auto before = hn::Load(df, depth);
+    auto seen = hn::And(lanes, hn::Lt(low, before));
+    if constexpr (kTies && kWinner) {
+      const auto later = hn::Gt(hn::Load(CellUint(), canvas_.winner + at), ordinal);
+      seen = hn::Or(seen, hn::And(hn::And(lanes, hn::Eq(low, before)), hn::RebindMask(df, later)));
+    }
+    if (kSkip && hn::AllFalse(df, seen)) return seen;
+    const auto known = hn::And(seen, hn::Eq(low, high));
+    hn::Store(hn::IfThenElse(known, low, before), df, depth);
+    if constexpr (kWinner) {
+      const CellUint du;
+      hn::BlendedStore(ordinal, hn::RebindMask(du, known), du, canvas_.winner + at);
+    }
+    return hn::AndNot(known, seen);
+  }
+
+  // Any covered lanes i ... of a cell, of a triangle in a lane of the batch, drawn at once. Its depth may not be known,
+  // or clipped, or clamped; fragments may count; more than depth may say who is seen.
+  HWY_NOINLINE void SpecialFragments(const Batch& batch, std::uint32_t lane, hn::Mask<CellInt> covered,
+                                     hn::Vec<CellFloat> low, hn::Vec<CellFloat> high, int cell_x, int cell_y,
+                                     std::size_t offset, std::size_t i) {
+    [[maybe_unused]] const CellInt d;
+    const CellFloat df;
+    const std::uint32_t position = batch.position(lane);
+    if (looks_at_lanes_) covered = hn::And(covered, LanesInBox(batch, lane, cell_x, cell_y, i));
     if constexpr (!kDepth) {
       Count(covered, offset + i);
       return;
     }
-    const CellFloat df;
-    auto lanes = hn::RebindMask(df, covered);
-    const double z = area.z[cell];
-    // low <= the stored depth <= high, and it is both if they are equal.
-    const auto low = kExactDepth ? RoundDepths(z - slot.z_error, slot.z_step + i)
-                                 : hn::Add(hn::Set(df, static_cast<float>(z)), hn::Load(df, slot.z_step_float + i));
-    if (HWY_UNLIKELY(slot.special)) {
-      SpecialFragments(slot, covered, low, area.CellX(cell), area.CellY(cell), offset, i, z);
-      return;
-    }
-    float* const depth = canvas_.depth + offset + i;
-    const auto before = hn::Load(df, depth);
-    lanes = hn::And(lanes, hn::Lt(low, before));
-    if (kSkip && hn::AllFalse(df, lanes)) return;
-    const auto high = kExactDepth ? RoundDepths(z + slot.z_error, slot.z_step + i) : low;
-    const auto known = hn::And(lanes, hn::Eq(low, high));
-    hn::Store(hn::IfThenElse(known, low, before), df, depth);
-    if constexpr (kWinner) {
-      const CellUint du;
-      hn::BlendedStore(hn::Set(du, job_.first_ordinal + slot.position), hn::RebindMask(du, known), du,
-                       canvas_.winner + offset + i);
-    }
-    const auto unknown = hn::AndNot(known, lanes);
-    if (HWY_UNLIKELY(!hn::AllFalse(df, unknown)))
-      SlowLanes(slot, Bits(df, unknown) << i, area.CellX(cell), area.CellY(cell));
-  }
-
-  // The same where fragments count, may be clipped or clamped, have no known bound, or more than depth says who is
-  // seen.
-  HWY_NOINLINE void SpecialFragments(const Slot& slot, hn::Mask<CellInt> covered, hn::Vec<CellFloat> low, int cell_x,
-                                     int cell_y, std::size_t offset, std::size_t i, double z) {
-    [[maybe_unused]] const CellInt d;
-    const CellFloat df;
-    if (slot.slow_depth) {
-      SlowLanes(slot, Bits(d, covered) << i, cell_x, cell_y);
+    if ((batch.slow_depth >> lane & 1) != 0) {
+      SlowLanes(position, Bits(d, covered) << i, cell_x, cell_y);
       return;
     }
     auto lanes = hn::RebindMask(df, covered);
-    auto high = RoundDepths(z + slot.z_error, slot.z_step + i);
     if (snaps_) {
-      const auto least = hn::Set(df, slot.z_least), most = hn::Set(df, slot.z_most);
+      const auto least = hn::Set(df, batch.z_least[lane]), most = hn::Set(df, batch.z_most[lane]);
       low = hn::Min(hn::Max(low, least), most);
       high = hn::Min(hn::Max(high, least), most);
     }
-    if (slot.clip) {
+    if ((batch.clip >> lane & 1) != 0) {
       const auto least = hn::Set(df, near_), most = hn::Set(df, far_);
       if (clamps) {
         low = hn::Min(hn::Max(low, least), most);
@@ -137,36 +132,33 @@ class FragmentWriter {
         const auto out = hn::Or(hn::Lt(high, least), hn::Gt(low, most));
         const auto in = hn::And(hn::Gt(low, least), hn::Lt(high, most));
         lanes = hn::AndNot(out, lanes);
-        SlowLanes(slot, Bits(df, hn::AndNot(in, lanes)) << i, cell_x, cell_y);
+        SlowLanes(position, Bits(df, hn::AndNot(in, lanes)) << i, cell_x, cell_y);
         lanes = hn::And(lanes, in);
       }
     }
+    if (!kCount && !ordered_) lanes = hn::And(lanes, hn::Lt(low, hn::Load(df, canvas_.depth + offset + i)));
     const auto unknown = hn::AndNot(hn::Eq(low, high), lanes);
-    SlowLanes(slot, Bits(df, unknown) << i, cell_x, cell_y);
+    SlowLanes(position, Bits(df, unknown) << i, cell_x, cell_y);
     lanes = hn::AndNot(unknown, lanes);
     if constexpr (kCount) Count(hn::RebindMask(d, lanes), offset + i);
     if (!ordered_) {
-      lanes = hn::And(lanes, hn::Lt(low, hn::Load(df, canvas_.depth + offset + i)));
-      hn::BlendedStore(low, lanes, df, canvas_.depth + offset + i);
-      if constexpr (kWinner) {
-        const CellUint du;
-        hn::BlendedStore(hn::Set(du, job_.first_ordinal + slot.position), hn::RebindMask(du, lanes), du,
-                         canvas_.winner + offset + i);
-      }
+      Fragments<false, false>(lanes, low, low, hn::Set(CellUint(), Ordinal(position)), offset + i);
       return;
     }
     alignas(64) float depths[kCellLanes];
     hn::Store(low, df, depths);
     for (std::uint32_t bits = Bits(df, lanes); bits != 0; bits &= bits - 1) {
       const auto k = static_cast<std::size_t>(__builtin_ctz(bits));
-      if (Passes(slot.position, depths[k], offset + i + k)) Store(slot.position, depths[k], offset + i + k);
+      if (Passes(position, depths[k], offset + i + k)) Store(position, depths[k], offset + i + k);
     }
   }
 
-  HWY_NOINLINE void SlowLanes(const Slot& slot, std::uint32_t bits, int cell_x, int cell_y) {
+  std::uint32_t Ordinal(std::uint32_t position) const { return job_.first_ordinal + position; }
+
+  void SlowLanes(std::uint32_t position, std::uint32_t bits, int cell_x, int cell_y) {
     for (; bits != 0; bits &= bits - 1) {
       const int k = __builtin_ctz(bits);
-      SlowFragment(slot, cell_x + (k & 3), cell_y + (k >> 2));
+      SlowFragment(position, cell_x + (k & 3), cell_y + (k >> 2));
     }
   }
 
@@ -194,12 +186,16 @@ class FragmentWriter {
     mask |= lanes << (at & 63);
   }
 
-  HWY_INLINE hn::Mask<CellInt> LanesInBox(const Slot& slot, int cell_x, int cell_y, std::size_t i) const {
+  HWY_INLINE hn::Mask<CellInt> LanesInBox(const Batch& batch, std::uint32_t lane, int cell_x, int cell_y,
+                                          std::size_t i) const {
     const CellInt d;
     const auto x = hn::Add(hn::Set(d, cell_x), hn::Load(d, kColumn + i));
     const auto y = hn::Add(hn::Set(d, cell_y), hn::Load(d, kRow + i));
-    return hn::And(hn::And(hn::Lt(hn::Set(d, slot.first_x - 1), x), hn::Lt(x, hn::Set(d, slot.last_x + 1))),
-                   hn::And(hn::Lt(hn::Set(d, slot.first_y - 1), y), hn::Lt(y, hn::Set(d, slot.last_y + 1))));
+    const auto is_in = [d](hn::Vec<CellInt> v, std::int32_t first, std::int32_t last) {
+      return hn::And(hn::Lt(hn::Set(d, first - 1), v), hn::Lt(v, hn::Set(d, last + 1)));
+    };
+    return hn::And(is_in(x, batch.first_x[lane], batch.last_x[lane]),
+                   is_in(y, batch.first_y[lane], batch.last_y[lane]));
   }
 
   // Hands the blocks that the triangle has marked to the visitor.
@@ -225,13 +221,13 @@ class FragmentWriter {
     marked_size_ = 0;
   }
 
-  bool looks_at_lanes = false, with_identifiers = false, clamps = false;
+  bool with_identifiers = false, clamps = false;
 
  private:
   SamplePosition Position(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
 
   void Store(std::uint32_t position, float z, std::size_t offset) {
-    if (kWinner) canvas_.winner[offset] = job_.first_ordinal + position;
+    if (kWinner) canvas_.winner[offset] = Ordinal(position);
     if (draw_.depth_write) canvas_.depth[offset] = z;
   }
 
@@ -268,7 +264,7 @@ class FragmentWriter {
   const Draw& draw_;
   const Canvas canvas_;
   Statistics& statistics_;
-  bool snaps_ = false, ordered_ = false;
+  bool snaps_ = false, ordered_ = false, looks_at_lanes_ = false;
   float near_ = 0, far_ = 1;
   std::uint32_t* marked_ = nullptr;  // blocks whose mask is not 0
   std::size_t marked_size_ = 0;

@@ -32,8 +32,7 @@ HWY_INLINE Double SnapLanes(Double c, Double w, int offset, const Grid& grid, hn
 
 // The corners of a batch on the grid. Returns the lanes that have none, because a vertex is not in front of the eye and
 // within the guard band (or no number).
-HWY_NOINLINE std::uint32_t Snap(const Grid& grid, const Vertex* const (&vertices)[3][kBatch], Batch& batch,
-                                Statistics& statistics) {
+HWY_NOINLINE std::uint32_t Snap(const Grid& grid, const BatchVertices& vertices, Batch& batch, Statistics& statistics) {
   const DoubleTag dd;
   const FloatTag df;
   std::uint32_t others = 0;
@@ -42,7 +41,7 @@ HWY_NOINLINE std::uint32_t Snap(const Grid& grid, const Vertex* const (&vertices
     Double x[3], y[3], w[3];
     auto whole = hn::Eq(hn::Zero(dd), hn::Zero(dd));
     for (std::size_t k = 0; k < 3; ++k) {
-      const Corner corner = LoadCorner(df, vertices[k] + lane);
+      const Corner corner = LoadCorner(df, vertices, lane, k);
       x[k] = hn::PromoteTo(dd, corner.x), y[k] = hn::PromoteTo(dd, corner.y), w[k] = hn::PromoteTo(dd, corner.w);
       const Double limit = hn::Mul(hn::Set(dd, kGuardBand), w[k]);  // 39 bits, exact
       whole = hn::And(whole, hn::And(hn::Gt(w[k], hn::Zero(dd)),
@@ -58,7 +57,7 @@ HWY_NOINLINE std::uint32_t Snap(const Grid& grid, const Vertex* const (&vertices
       hn::Store(at_y, dd, batch.corner_y[k] + lane);
       for (std::uint32_t rest = Bits(dd, hn::And(unsure, whole)); rest != 0; rest &= rest - 1) {
         const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(rest));
-        const Vertex& v = *vertices[k][l];
+        const Vertex& v = vertices.of(l, k);
         if (!AllFinite(v)) continue;
         batch.corner_x[k][l] = snapped_position(v.x, v.w, grid.offset_x, grid, statistics);
         batch.corner_y[k][l] = snapped_position(v.y, v.w, grid.offset_y, grid, statistics);

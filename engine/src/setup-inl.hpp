@@ -17,7 +17,7 @@ namespace surefill::fast::HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The samples of the region that the triangles in lanes lane ... can cover. Grid: of the snapped corners.
-HWY_INLINE void SetUpBoxes(const DrawJob& job, const Vertex* const (&vertices)[3][kBatch], const Corner (&v)[3],
+HWY_INLINE void SetUpBoxes(const DrawJob& job, const BatchVertices& vertices, const Corner (&v)[3],
                            hn::Mask<FloatTag> front, std::uint32_t all, std::uint32_t lane, Batch& batch) {
   const FloatTag df;
   const PixelBox& region = job.region;
@@ -44,7 +44,7 @@ HWY_INLINE void SetUpBoxes(const DrawJob& job, const Vertex* const (&vertices)[3
   std::uint32_t mixed = Bits(df, hn::Not(front)) & (all >> lane);
   for (; HWY_UNLIKELY(mixed != 0); mixed &= mixed - 1) {
     const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(mixed));
-    const Vertex &v0 = *vertices[0][l], &v1 = *vertices[1][l], &v2 = *vertices[2][l];
+    const Vertex &v0 = vertices.of(l, 0), &v1 = vertices.of(l, 1), &v2 = vertices.of(l, 2);
     const bool numbers = AllFinite(v0) && AllFinite(v1) && AllFinite(v2);
     const PixelBox box = !numbers ? region
                                   : screen_box(v0, v1, v2, region, over ? 0 : std::min(job.sample.x, job.sample.y),
@@ -119,6 +119,7 @@ HWY_INLINE void StoreEdges(const DrawJob& job, Edges& edges, hn::Vec<IntTag> cel
 HWY_INLINE void StoreDepth(const DrawJob& job, const Corner (&v)[3], const Edges& edges, Double det, Double det_error,
                            Double z_magnitude, Double columns, Double rows, std::uint32_t lane, Batch& batch) {
   const DoubleTag dd;
+  const FloatTag df;
   const Double bound = hn::Set(dd, kEdgeErrorBound);
   Double z = hn::Zero(dd), zx = z, zy = z, edge_error = z, x_size = z, y_size = z;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -142,27 +143,62 @@ HWY_INLINE void StoreDepth(const DrawJob& job, const Corner (&v)[3], const Edges
   const Double numerators =
       hn::Add(hn::Mul(z_magnitude, hn::Add(hn::Add(edge_error, edge_error), steps)), hn::Mul(size, det_error));
   // The first sample of an area may lie 63 samples before the origin, on the way to which sums can be larger.
-  const Double way = hn::Mul(hn::Set(dd, 63.0), hn::Add(hn::Abs(zx), hn::Abs(zy)));
+  const Double slopes = hn::Add(hn::Abs(zx), hn::Abs(zy)), way = hn::Mul(hn::Set(dd, 63.0), slopes);
   const Double evaluation = hn::Mul(hn::Set(dd, 2 * kEdgeErrorBound), hn::Add(size, way));
   const Double total = hn::Mul(hn::Add(hn::Div(numerators, smallest), evaluation),
                                hn::Set(dd, SUREFILL_PLANT(depth_bound) ? 0x1p-8 : 1 + 0x1p-20));
-  const auto known = hn::And(hn::Gt(smallest, hn::Zero(dd)), hn::Lt(hn::Add(size, total), hn::Set(dd, 1e38)));
+  const auto known =
+      hn::And(hn::Gt(smallest, hn::Zero(dd)), hn::Lt(hn::Add(hn::Add(size, way), total), hn::Set(dd, 1e37)));
   batch.slow_depth |= Bits(dd, hn::Not(known)) << lane;
   const Double direction = hn::Set(dd, job.greater ? -0.0 : 0.0);
-  hn::Store(hn::Xor(z, direction), dd, batch.z + lane);
-  hn::Store(hn::Xor(zx, direction), dd, batch.z_x + lane);
-  hn::Store(hn::Xor(zy, direction), dd, batch.z_y + lane);
+  z = hn::Xor(z, direction), zx = hn::Xor(zx, direction), zy = hn::Xor(zy, direction);
+  hn::Store(z, dd, batch.z + lane);
+  hn::Store(zx, dd, batch.z_x + lane);
+  hn::Store(zy, dd, batch.z_y + lane);
   hn::Store(total, dd, batch.z_error + lane);
+  // Small lanes: samples of cells that the box meets, up to 3 beyond it.
+  const Double largest = hn::Add(size, hn::Mul(hn::Set(dd, 3.0), slopes));
+  const Splitter<DoubleTag> splitter(largest);
+  Float high, low;
+  splitter.Split(z, high, low);
+  hn::Store(high, df, batch.high + lane);
+  hn::Store(low, df, batch.low + lane);
+  splitter.Split(zx, high, low);
+  hn::Store(high, df, batch.high_x + lane);
+  hn::Store(low, df, batch.low_x + lane);
+  splitter.Split(zy, high, low);
+  hn::Store(high, df, batch.high_y + lane);
+  hn::Store(low, df, batch.low_y + lane);
+  const auto zero = hn::Eq(hn::Add(largest, total), hn::Zero(dd));  // depth is 0 everywhere, without error
+  hn::Store(hn::DemoteTo(df, hn::IfThenZeroElse(zero, splitter.Error(total))), df, batch.low_error + lane);
 }
 
 // Lanes that SetUp counts.
 struct FoundLanes {
-  std::uint32_t finite = 0, reached = 0, degenerate = 0, culled = 0;
+  std::uint32_t counted = 0, finite = 0, reached = 0, degenerate = 0, culled = 0;
+};
+
+// Which of some lanes have boxes that meet a band of the set, and of which it is the first band. Without a branch for
+// each: whose a triangle is cannot be guessed.
+struct OwnedLanes {
+  std::uint32_t any = 0, first = 0;
+
+  OwnedLanes(const BandSet& bands, const Batch& batch, std::uint32_t lane, std::uint32_t lanes) {
+    for (std::uint32_t l = 0; l < lanes; ++l) {
+      const auto begin = static_cast<std::uint32_t>(batch.first_y[lane + l]) >> kTileLog2,
+                 end = static_cast<std::uint32_t>(batch.last_y[lane + l]) >> kTileLog2;
+      const auto owns = [&bands](std::uint32_t band) {
+        return static_cast<std::uint32_t>(bands.owned[band >> 6 & 3] >> (band & 63)) & 1;
+      };
+      first |= owns(begin) << l;
+      any |= (owns(begin) | owns(end) | static_cast<std::uint32_t>(end - begin > 1)) << l;
+    }
+  }
 };
 
 // Everything in a batch but its position in the draw and, under Grid, its corners. `all`: the lanes to be set up.
-HWY_NOINLINE FoundLanes Build(const DrawJob& job, const Vertex* const (&vertices)[3][kBatch], std::uint32_t all,
-                              Batch& batch, Statistics& statistics) {
+HWY_NOINLINE FoundLanes Build(const DrawJob& job, const BandSet& bands, const BatchVertices& vertices,
+                              std::uint32_t all, Batch& batch, Statistics& statistics) {
   const DoubleTag dd;
   const hn::RebindToUnsigned<DoubleTag> du;
   const FloatTag df;
@@ -171,24 +207,36 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const Vertex* const (&vertices
   const bool grid = draw.grid.has_value();
   FoundLanes found;
   batch.small = batch.medium = batch.slow_depth = batch.clip = batch.negative = 0;
+  // Each triangle is counted by the set that owns its first band; where boxes do not tell, or draws are skipped by some
+  // sets, by the first set.
+  const bool by_band = !bands.all && !grid && !draw.culling_box;
 
   constexpr auto kLanes = static_cast<std::uint32_t>(hn::MaxLanes(DoubleTag()));
   for (std::uint32_t lane = 0; lane < kBatch; lane += kLanes) {
-    const Corner v[3] = {LoadCorner(df, vertices[0] + lane), LoadCorner(df, vertices[1] + lane),
-                         LoadCorner(df, vertices[2] + lane)};
+    const Corner v[3] = {LoadCorner(df, vertices, lane, 0), LoadCorner(df, vertices, lane, 1),
+                         LoadCorner(df, vertices, lane, 2)};
     const Float zero = hn::Zero(df);
     const auto front = hn::And(hn::And(hn::Gt(v[0].w, zero), hn::Gt(v[1].w, zero)), hn::Gt(v[2].w, zero));
     SetUpBoxes(job, vertices, v, front, all, lane, batch);
     const auto first_x = hn::Load(di, batch.first_x + lane), last_x = hn::Load(di, batch.last_x + lane);
     const auto first_y = hn::Load(di, batch.first_y + lane), last_y = hn::Load(di, batch.last_y + lane);
     const auto empty = hn::Or(hn::Lt(last_x, first_x), hn::Lt(last_y, first_y));
-    const std::uint32_t here = ~Bits(di, empty) & (all >> lane) & ((1u << kLanes) - 1);
+    const std::uint32_t group = (all >> lane) & ((1u << kLanes) - 1);
+    std::uint32_t here = ~Bits(di, empty) & group, counted = bands.number == 0 ? group : 0;
+    if (by_band) {
+      const OwnedLanes owned(bands, batch, lane, kLanes);
+      counted = (bands.number == 0 ? group & ~here : 0) | (here & owned.first);
+      here &= owned.any;
+    }
+    found.counted |= counted << lane;
     found.reached |= here << lane;
     if (here == 0) {
-      for (std::uint32_t l = lane; l < lane + kLanes; ++l)
-        found.finite |= static_cast<std::uint32_t>(AllFinite(*vertices[0][l]) && AllFinite(*vertices[1][l]) &&
-                                                   AllFinite(*vertices[2][l]))
-                        << l;
+      for (std::uint32_t rest = by_band ? counted : group; rest != 0; rest &= rest - 1) {
+        const std::uint32_t l = lane + static_cast<std::uint32_t>(__builtin_ctz(rest));
+        const bool finite =
+            AllFinite(vertices.of(l, 0)) && AllFinite(vertices.of(l, 1)) && AllFinite(vertices.of(l, 2));
+        found.finite |= static_cast<std::uint32_t>(finite) << l;
+      }
       continue;
     }
 
@@ -235,7 +283,7 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const Vertex* const (&vertices
     if (HWY_UNLIKELY(uncertain != 0)) {
       std::uint32_t flat = 0;
       is_negative = grid ? SnappedSigns(*draw.grid, batch, lane, uncertain, is_negative, flat)
-                         : ExactSigns(draw, batch.first + lane, uncertain, is_negative, flat, statistics);
+                         : ExactSigns(draw, batch.first + lane, uncertain, counted, is_negative, flat, statistics);
       found.degenerate |= flat << lane;
     }
     batch.negative |= Bits(dd, is_negative) << lane;
@@ -292,16 +340,16 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const Vertex* const (&vertices
     found.culled = (draw.cull == Cull::front ? front : ~front) & found.reached & ~found.degenerate;
   }
   batch.live = found.reached & ~found.degenerate & ~found.culled;
+  if (!bands.all && !by_band) batch.live &= OwnedLanes(bands, batch, 0, kBatch).any;
   return found;
 }
 
 // The fan of a clipped triangle's polygon, as a batch. False if its triangles do not all have one sign.
 HWY_NOINLINE bool SetUpFan(const DrawJob& job, std::uint32_t position, SnappedTriangle& snapped, Batch& batch) {
   const Draw& draw = *job.draw;
-  const Vertex* vertices[3][kBatch];
-  for (std::size_t k = 0; k < 3; ++k) {
-    for (std::size_t lane = 0; lane < kBatch; ++lane) vertices[k][lane] = &VertexOf(draw, position, k);
-  }
+  std::uint32_t indices[3 * kBatch];
+  for (std::size_t i = 0; i < 3 * kBatch; ++i) indices[i] = draw.indices[std::size_t{3} * position + i % 3];
+  const BatchVertices vertices{draw.vertices.data(), indices};
   const int lanes = snapped.corners() - 2;
   batch.live = 0;
   if (lanes < 1) return true;
@@ -319,24 +367,31 @@ HWY_NOINLINE bool SetUpFan(const DrawJob& job, std::uint32_t position, SnappedTr
   }
   batch.first = position, batch.step = 0, batch.clipped = 0;
   Statistics unused;
-  const FoundLanes found = Build(job, vertices, (1u << lanes) - 1, batch, unused);
+  const FoundLanes found = Build(job, BandSet(), vertices, (1u << lanes) - 1, batch, unused);
   // Those that reach no sample do not matter, nor do those without area.
   const std::uint32_t some = found.reached & ~found.degenerate;
   return (some & batch.negative) == 0 || (some & ~batch.negative) == 0;
 }
 
 // Sets up the triangles [first, first + count) of the draw.
-void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& batch, Statistics& statistics) {
+void SetUp(const DrawJob& job, const BandSet& bands, std::uint32_t first, std::uint32_t count, Batch& batch,
+           Statistics& statistics) {
   const Draw& draw = *job.draw;
   const std::uint32_t all = (1u << count) - 1;
-  const Vertex* vertices[3][kBatch];
-  for (std::uint32_t lane = 0; lane < kBatch; ++lane) {
-    const std::uint32_t from = SUREFILL_PLANT(batch_lane) && lane == 5 ? 4 : lane;
-    for (std::size_t k = 0; k < 3; ++k) vertices[k][lane] = &VertexOf(draw, first + (lane < count ? from : 0), k);
+  BatchVertices vertices{draw.vertices.data(), &draw.indices[std::size_t{3} * first]};
+  std::uint32_t indices[3 * kBatch];
+  if (HWY_UNLIKELY(count < kBatch || SUREFILL_PLANT(batch_lane))) {
+    for (std::uint32_t lane = 0; lane < kBatch; ++lane) {
+      const std::uint32_t of = SUREFILL_PLANT(batch_lane) && lane == 5 ? 4 : lane;
+      std::memcpy(indices + 3 * lane, vertices.indices + 3 * (of < count ? of : 0), 3 * sizeof(std::uint32_t));
+    }
+    vertices.indices = indices;
   }
   batch.first = first, batch.step = 1;
-  batch.clipped = HWY_UNLIKELY(draw.grid.has_value()) ? Snap(*draw.grid, vertices, batch, statistics) & all : 0;
-  FoundLanes found = Build(job, vertices, all, batch, statistics);
+  Statistics not_counted;
+  Statistics& of_grid = bands.number == 0 ? statistics : not_counted;
+  batch.clipped = HWY_UNLIKELY(draw.grid.has_value()) ? Snap(*draw.grid, vertices, batch, of_grid) & all : 0;
+  FoundLanes found = Build(job, bands, vertices, all, batch, statistics);
   if (HWY_UNLIKELY(!draw.attributes.empty())) {
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       if (!AttributesFinite(draw, first + lane)) found.finite &= ~(1u << lane);
@@ -349,11 +404,14 @@ void SetUp(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& 
   if (HWY_UNLIKELY(draw.grid.has_value())) {  // facing and emptiness are matters of the sample (G1)
     found.degenerate = found.culled = 0;
     batch.clipped &= found.finite;
-    found.reached |= FindClipped(job, found.degenerate, batch, statistics);
+    found.reached |= FindClipped(job, found.degenerate, batch, of_grid);
   }
-  const auto ones = [](std::uint32_t lanes) { return static_cast<std::uint64_t>(__builtin_popcount(lanes)); };
-  statistics.triangles += count;
-  statistics.dropped += count - ones(found.finite);
+  const std::uint32_t counted = found.counted;
+  const auto ones = [counted](std::uint32_t lanes) {
+    return static_cast<std::uint64_t>(__builtin_popcount(lanes & counted));
+  };
+  statistics.triangles += ones(all);
+  statistics.dropped += ones(~found.finite);
   statistics.outside += ones(found.finite & ~found.reached & ~found.degenerate);
   statistics.degenerate += ones(found.degenerate);
   statistics.culled += ones(found.culled);

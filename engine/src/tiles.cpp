@@ -177,17 +177,17 @@ class Renderer {
             static_cast<int>(sample_number_)};
   }
 
-  // All triangles into the bands of one set. Each thread sets up all of them for itself: that costs less than passing
-  // what is set up from one core's cache to another's. The first thread counts.
+  // All triangles into the bands of one set. Each thread sets up those it needs for itself: that costs less than
+  // passing what is set up from one core's cache to another's.
   void draw_bands(int set) {
     const auto piece = static_cast<std::size_t>(set);
-    const BandSet bands(set, threads_);
-    Statistics not_counted;
-    Statistics& counted = set == 0 ? statistics_[0] : not_counted;
+    const BandSet bands(set, threads_, canvas_.tiles_y);
+    Statistics counted;  // its own: threads write to it all the time
     Batch* const batches = &batches_[piece * kChunkBatches];
     for (std::size_t d = 0; d < draws_.size(); ++d) {
       const auto triangles = static_cast<std::uint32_t>(draws_[d].indices.size() / 3);
       if (skips(jobs_[d], bands)) {
+        if (set != 0) continue;
         ++counted.skipped_draws;
         counted.triangles += triangles;
         counted.outside += triangles;
@@ -197,12 +197,14 @@ class Renderer {
         std::size_t n = 0;
         for (; n < kChunkBatches && first < triangles; ++n) {
           const std::uint32_t count = std::min(kBatch, triangles - first);
-          kernels_.set_up(jobs_[d], first, count, batches[n], counted);
+          kernels_.set_up(jobs_[d], bands, first, count, batches[n], counted);
           first += count;
         }
-        kernels_.rasterize(jobs_[d], {batches, n}, canvas_, bands, statistics_[piece]);
+        kernels_.rasterize(jobs_[d], {batches, n}, canvas_, bands, counted);
       }
     }
+    add_triangles(statistics_[piece], counted);
+    add_rungs(statistics_[piece], counted);
   }
 
   bool skips(const DrawJob& job, const BandSet& bands) const {

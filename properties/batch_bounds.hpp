@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What a batch of the fast path promises those who draw it: boxes that hold all that is covered, integer edges that are
-// right where they are sure, depth planes within their error bounds. Checked by exact arithmetic, apart from any image:
-// an image shows a bound that is too small at one sample in millions, and one that is too large not at all.
+// right where they are sure and exact where they can be, depth planes within their error bounds; under Grid, corners on
+// the grid. Checked by exact arithmetic, apart from any image: an image shows a bound that is too small at one sample
+// in millions, and one that is too large not at all.
 #ifndef SUREFILL_PROPERTIES_BATCH_BOUNDS_HPP
 #define SUREFILL_PROPERTIES_BATCH_BOUNDS_HPP
 
@@ -14,9 +15,12 @@
 #include <cstdint>
 #include <limits>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "canvas.hpp"
+#include "grid.hpp"
 #include "properties/generators.hpp"
 #include "triangle.hpp"
 
@@ -36,8 +40,14 @@ class BatchBounds {
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     const bool uneven = random_.one_in(4);
+    if (random_.one_in(3))
+      draw_.grid = Grid{random_.between(0, 12), random_.between(0, 15), random_.between(0, 15),
+                        static_cast<GridRounding>(random_.below(3))};
+    const bool thin = draw_.grid && random_.one_in(3);
     for (std::uint32_t t = 0; t < count; ++t) {
-      for (const Vertex& v : uneven ? uneven_triangle() : category.triangle(random_, size, size)) {
+      for (const Vertex& v : thin     ? thin_triangle()
+                             : uneven ? uneven_triangle()
+                                      : category.triangle(random_, size, size)) {
         indices.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back(v);
       }
@@ -60,26 +70,81 @@ class BatchBounds {
     Statistics statistics;
     fast::kernels().set_up(job_, fast::BandSet(), 0, count, batch_, statistics);
     if (statistics.triangles != count ||
-        statistics.rasterized != static_cast<unsigned>(__builtin_popcount(batch_.live)))
+        statistics.clipped != static_cast<unsigned>(__builtin_popcount(batch_.clipped)))
       return "the statistics count lanes";
     for (std::uint32_t lane = 0; lane < count; ++lane) check(lane);
+    expect(statistics.rasterized == (draw_.grid ? reached_ : static_cast<unsigned>(__builtin_popcount(batch_.live))),
+           "the statistics count what is drawn");
+    expect(statistics.dropped == dropped_, "what is not finite is dropped");
+    if (clips_) return broken_;
+    expect(statistics.signs_by_filter + statistics.signs_by_expansion <= unsure_,
+           "the sign of D is looked up only where doubles may not tell it");
+    if (!draw_.grid) return broken_;
+    for (std::uint32_t lane = count; lane < fast::kBatch; ++lane) near_a_turn(0);  // the other lanes are like the first
+    expect(statistics.values_by_filter + statistics.values_by_expansion <= turns_,
+           "grid positions are looked up only where doubles may not tell them");
     return broken_;
   }
 
  private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
   void expect(bool holds, const char* what) {
     if (!holds && broken_.empty()) broken_ = what;
   }
   static bool has(std::uint32_t lanes, std::uint32_t lane) { return (lanes >> lane & 1) != 0; }
-  // Whole numbers and powers of two far below them: products of which some are exact, edges that miss samples by next
-  // to nothing.
+  // Whole numbers and powers of two far below them, or far above: products of which some are exact, edges that miss
+  // samples by next to nothing; zeros of both signs, and sometimes an infinity.
   std::array<Vertex, 3> uneven_triangle() {
+    const int finest = random_.one_in(2) ? 34 : 100;
+    const bool infinities = random_.one_in(16);
     const auto number = [&](int low, int high) {
+      const float few = static_cast<float>(random_.between(-3, 3));
+      if (infinities && random_.one_in(6)) return few < 0 ? -kInfinity : kInfinity;
       if (!random_.one_in(3)) return static_cast<float>(random_.between(low, high));
-      return std::ldexp(static_cast<float>(random_.between(-3, 3)), -random_.between(10, 34));
+      return std::ldexp(few, random_.one_in(12) ? random_.between(12, 30) : -random_.between(10, finest));
     };
     std::array<Vertex, 3> made;
-    for (Vertex& v : made) v = {number(-2, 14), number(-2, 14), number(0, 3), random_.one_in(3) ? number(1, 3) : 1.0f};
+    for (Vertex& v : made) {
+      v = {number(-2, 14), number(-2, 14), number(0, 3), random_.one_in(3) ? number(1, 3) : 1.0f};
+      if (random_.one_in(16)) v.w = random_.one_in(2) ? 0.0f : -0.0f;
+    }
+    return made;
+  }
+  // Snapped to the grid, its corners are as near to one line as they can be, and far apart: P, P + (a, b) and P + t (a,
+  // b)
+  // + (u, v) with a v - b u = 1 grid step.
+  std::array<Vertex, 3> thin_triangle() {
+    const double steps = 1 << draw_.grid->bits;
+    const auto any = [&](double pixels) { return std::round((2 * random_.unit() - 1) * pixels * steps); };
+    std::int64_t a = static_cast<std::int64_t>(any(8000)) | 1, b = static_cast<std::int64_t>(any(8000));
+    std::int64_t r0 = a, r1 = b, v0 = 1, v1 = 0, u0 = 0, u1 = 1;  // Euclid: r = a v + b u
+    while (r1 != 0) {
+      const std::int64_t q = r0 / r1;
+      std::tie(r0, r1) = std::pair(r1, r0 - q * r1);
+      std::tie(v0, v1) = std::pair(v1, v0 - q * v1);
+      std::tie(u0, u1) = std::pair(u1, u0 - q * u1);
+    }
+    const double x = any(8000), y = any(8000), da = static_cast<double>(a), db = static_cast<double>(b);
+    const double t = random_.below(2), flat = random_.one_in(4) ? 0 : 1;
+    const double corner[3][2] = {
+        {x, y},
+        {x + da, y + db},
+        {x + t * da - flat * static_cast<double>(u0), y + t * db + flat * static_cast<double>(v0)}};
+    std::array<Vertex, 3> made;
+    for (std::size_t k = 0; k < 3; ++k) {
+      // A W with which float32 numbers come near enough, mostly.
+      const double at_x = (corner[k][0] + draw_.grid->offset_x / 16.0) / steps,
+                   at_y = (corner[k][1] + draw_.grid->offset_y / 16.0) / steps;
+      const auto error = [&](double at, float w) {
+        return std::fabs(static_cast<double>(static_cast<float>(at * w)) / w - at) * steps;
+      };
+      float w = 1;
+      for (int tries = 0; tries < 60 && std::max(error(at_x, w), error(at_y, w)) > 0.4; ++tries)
+        w = static_cast<float>(1 + random_.unit());
+      made[k] = {static_cast<float>(at_x * w), static_cast<float>(at_y * w), w / 2, w};
+    }
+    if (random_.one_in(2)) std::swap(made[0], made[1]);
     return made;
   }
   SamplePosition at(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
@@ -98,8 +163,11 @@ class BatchBounds {
       finite = finite && std::isfinite(vertex->x) && std::isfinite(vertex->y) && std::isfinite(vertex->z) &&
                std::isfinite(vertex->w);
     }
+    if (!finite) ++dropped_;
+    if (draw_.grid) return check_snapped(lane, v, finite);
     Statistics statistics;
     const bool drawn = finite && triangle_.set_up(*v[0], *v[1], *v[2], statistics);
+    if (finite && !determinant_is_clear(lane)) ++unsure_;
     const bool front = drawn && (triangle_.determinant() > 0) == (draw_.front_face == FrontFace::clockwise);
     const bool culled = draw_.cull == Cull::front ? front : draw_.cull == Cull::back && !front;
     const bool live = has(batch_.live, lane);
@@ -115,17 +183,116 @@ class BatchBounds {
       }
       return;
     }
-    x0_ = batch_.first_x[lane], x1_ = batch_.last_x[lane], y0_ = batch_.first_y[lane], y1_ = batch_.last_y[lane];
+    take_box(lane);
     expect(x0_ >= job_.region.x0 && x1_ < job_.region.x1 && y0_ >= job_.region.y0 && y1_ < job_.region.y1 &&
                x0_ <= x1_ && y0_ <= y1_,
            "the box lies in the region");
     if (!broken_.empty()) return;
     box(v, exact_box);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const EdgeFunction& edge = triangle_.edge(static_cast<int>(i));
+      line_[i] = {edge.a, edge.b, edge.c, edge.exact};
+    }
+    sign_ = triangle_.determinant();
+    what_is_set_up(lane, v);
+  }
+
+  // The same under Grid, for the triangle on the grid.
+  void check_snapped(std::uint32_t lane, const Vertex* const (&v)[3], bool finite) {
+    bool whole = finite;
+    for (const Vertex* vertex : v) {
+      const double limit = kGuardBand * static_cast<double>(vertex->w);
+      whole = whole && vertex->w > 0 && std::fabs(vertex->x) <= limit && std::fabs(vertex->y) <= limit;
+    }
+    near_a_turn(lane);
+    Statistics statistics;
+    const bool some = finite && snapped_.set_up(*v[0], *v[1], *v[2], *draw_.grid, statistics);
+    const double least = std::min(job_.sample.x, job_.sample.y), most = std::max(job_.sample.x, job_.sample.y);
+    const bool clipped = finite && !whole;
+    const bool clipped_is_seen = clipped && some && !snapped_.box(job_.region, least, most).empty();
+    clips_ = clips_ || clipped;
+    if (clipped_is_seen) ++reached_;
+    expect(has(batch_.clipped, lane) == clipped_is_seen, "`clipped` is what the guard band cuts");
+    expect(whole || !has(batch_.live, lane), "what is not within the guard band is not drawn as it is");
+    if (!whole) return;
+
+    const int units_per_pixel = 16 << draw_.grid->bits;
+    std::int64_t x[3], y[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const SamplePosition corner = snapped_.corner(static_cast<int>(k));
+      expect(batch_.corner_x[k][lane] == corner.x && batch_.corner_y[k][lane] == corner.y, "corners are on the grid");
+      corner_[k] = corner;
+      x[k] = static_cast<std::int64_t>(corner.x * units_per_pixel);
+      y[k] = static_cast<std::int64_t>(corner.y * units_per_pixel);
+    }
+    const auto samples = [](double a, double b, double c, double offset, int begin, int end, int* first, int* last) {
+      *first = static_cast<int>(std::clamp<double>(std::ceil(std::min({a, b, c}) - offset), begin, end));
+      *last = static_cast<int>(std::clamp<double>(std::floor(std::max({a, b, c}) - offset), begin - 1, end - 1));
+    };
+    const PixelBox& region = job_.region;
+    samples(corner_[0].x, corner_[1].x, corner_[2].x, job_.sample.x, region.x0, region.x1, &x0_, &x1_);
+    samples(corner_[0].y, corner_[1].y, corner_[2].y, job_.sample.y, region.y0, region.y1, &y0_, &y1_);
+    const int box[4] = {x0_, x1_, y0_, y1_};
+    const bool reached = x0_ <= x1_ && y0_ <= y1_;
+    if (reached) ++reached_;
+    const std::int64_t left = (x[1] - x[0]) * (y[2] - y[0]), right = (y[1] - y[0]) * (x[2] - x[0]);
+    sign_ = left > right ? 1 : left < right ? -1 : 0;
+    const bool culled = draw_.cull == Cull::front ? sign_ > 0 : draw_.cull == Cull::back && sign_ < 0;
+    const bool live = has(batch_.live, lane);
+    expect(live == (reached && sign_ != 0 && !culled), "what is live reaches samples, has an area and is not culled");
+    if (!live || !broken_.empty()) return;
+    take_box(lane);
+    expect(x0_ == box[0] && x1_ == box[1] && y0_ == box[2] && y1_ == box[3], "the box is that of the corners");
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SamplePosition &j = corner_[(i + 1) % 3], &k = corner_[(i + 2) % 3];
+      line_[i] = {j.y - k.y, k.x - j.x, -((j.y - k.y) * j.x + (k.x - j.x) * j.y), true};
+    }
+    triangle_.set_up(*v[0], *v[1], *v[2], statistics);  // its depth is that of the triangle as it was
+    what_is_set_up(lane, v);
+    float range[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      range[k] = std::clamp(v[k]->z / v[k]->w, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
+    const float low = std::min({range[0], range[1], range[2]}), high = std::max({range[0], range[1], range[2]});
+    expect(batch_.z_least[lane] == (job_.greater ? -high : low) && batch_.z_most[lane] == (job_.greater ? -low : high),
+           "the range of depth is that of the corners");
+  }
+
+  // Counts the coordinates of corners of which doubles alone may not be able to round one to the grid.
+  void near_a_turn(std::uint32_t lane) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Vertex& v = draw_.vertices[3 * lane + k];
+      const auto is_near = [&](float c, int offset) {
+        const double t = static_cast<double>(c) / v.w * (1 << draw_.grid->bits) - offset / 16.0;
+        const double turn = draw_.grid->rounding == GridRounding::truncate ? t : t + 0.5;
+        return !(std::fabs(turn - std::rint(turn)) > 0x1p-20);
+      };
+      if (is_near(v.x, draw_.grid->offset_x) || is_near(v.y, draw_.grid->offset_y)) turns_ += 2;
+    }
+  }
+
+  // D is far larger than any error of D = sum W_i E_i in double.
+  bool determinant_is_clear(std::uint32_t lane) {
+    const double x = batch_.origin_x(lane) + job_.sample.x, y = batch_.origin_y(lane) + job_.sample.y;
+    double terms = 0;
+    for (int i = 0; i < 3; ++i) {
+      const EdgeFunction& edge = triangle_.edge(i);
+      terms += (std::fabs(edge.a * x) + std::fabs(edge.b * y) + std::fabs(edge.c)) * std::fabs(triangle_.vertex(i).w);
+    }
+    return std::fabs(triangle_.exact_determinant_value().estimate()) > 0x1p-47 * terms;
+  }
+
+  void take_box(std::uint32_t lane) {
+    x0_ = batch_.first_x[lane], x1_ = batch_.last_x[lane], y0_ = batch_.first_y[lane], y1_ = batch_.last_y[lane];
     origin_x_ = batch_.origin_x(lane), origin_y_ = batch_.origin_y(lane);
+  }
+
+  void what_is_set_up(std::uint32_t lane, const Vertex* const (&v)[3]) {
     const bool small = has(batch_.small, lane), medium = has(batch_.medium, lane);
     expect(small == (x1_ - (x0_ & ~3) < 16 && y1_ - (y0_ & ~3) < 16), "`small` is 4 x 4 cells");
     expect(medium == (x1_ - (x0_ & ~7) < 64 && y1_ - (y0_ & ~7) < 64), "`medium` is 8 x 8 blocks");
+    expect(has(batch_.negative, lane) == (sign_ < 0), "`negative` is D < 0");
     if (small || medium) edges(lane, small ? 16 : 64);
+    if (small || medium) doubt(lane, small ? 24 : 22);
     if (!small) unscaled_edges(lane);
     depth(lane, v);
   }
@@ -142,6 +309,15 @@ class BatchBounds {
              "the box holds the triangle");
     expect(x0_ >= wide.x0 - 1 && x1_ <= wide.x1 && y0_ >= wide.y0 - 1 && y1_ <= wide.y1,
            "the box is no larger than need be");
+    // Where float32 arithmetic is exact, not at all.
+    bool exact = !least.empty();
+    for (const Vertex* vertex : v) {
+      const auto few_bits = [](float c) { return std::fabs(c) < 0x1p13f && c * 256 == std::rint(c * 256); };
+      exact = exact && vertex->w == 1 && few_bits(vertex->x) && few_bits(vertex->y);
+    }
+    if (exact)
+      expect(x0_ == least.x0 && x1_ == least.x1 - 1 && y0_ == least.y0 && y1_ == least.y1 - 1,
+             "the box is the smallest");
   }
 
   template <typename Visit>
@@ -153,14 +329,13 @@ class BatchBounds {
   // Of an edge in integers, v >= 0 says inside and v < -doubt says outside.
   void edges(std::uint32_t lane, int reach) {
     const std::int64_t doubt = batch_.doubt[lane];
-    Statistics statistics;
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t a = batch_.a[i][lane], b = batch_.b[i][lane], e = batch_.e[i][lane];
-      const EdgeFunction& edge = triangle_.edge(static_cast<int>(i));
+      const Line& edge = line_[i];
       const auto value = [&](int x, int y) { return e + a * (x - origin_x_) + b * (y - origin_y_); };
       const auto inside = [&](int x, int y) {
-        const int sign = edge.sign(at(x, y), statistics);
-        return (sign != 0 ? sign : tie_sign(edge, job_.shift)) == triangle_.determinant();
+        const int sign = edge_sign(i, at(x, y));
+        return (sign != 0 ? sign : tie_sign(edge.a, edge.b, job_.shift)) == sign_;
       };
       const std::int64_t rise = 3 * (std::max<std::int64_t>(a, 0) + std::max<std::int64_t>(b, 0));
       expect(batch_.most[i][lane] == rise + doubt, "`most` is the largest change, and the doubt");
@@ -194,19 +369,57 @@ class BatchBounds {
     }
   }
 
+  // Of E_i, exactly.
+  int edge_sign(std::size_t i, SamplePosition p) {
+    Statistics statistics;
+    if (!draw_.grid) return triangle_.edge(static_cast<int>(i)).sign(p, statistics);
+    const int units_per_pixel = 16 << draw_.grid->bits;
+    const auto units = [&](double pixels) { return static_cast<std::int64_t>(pixels * units_per_pixel); };
+    const SamplePosition& j = corner_[(i + 1) % 3];
+    const std::int64_t left = units(line_[i].a) * units(p.x - j.x), right = units(line_[i].b) * units(j.y - p.y);
+    return left > right ? 1 : left < right ? -1 : 0;
+  }
+
+  // There is none exactly if all edges are integers in units of the scale: a and b, and c in 2^-10 of them; under Grid,
+  // where corners are integers anyway, if the scale has bits for the smallest value (grid-inl.hpp).
+  void doubt(std::uint32_t lane, int exponent) {
+    bool none = true;
+    for (const Line& line : line_) {
+      const double largest = std::max({std::fabs(line.a), std::fabs(line.b), 0x1p-400});
+      const double scale = std::ldexp(1, exponent - std::ilogb(largest));
+      const double c = line.c * (scale * 0x1p10);
+      const auto whole = [](double value) { return value == std::rint(value); };
+      if (draw_.grid) {
+        none = none && scale * std::ldexp(16, -2 * (draw_.grid->bits + 4)) >= 0x1p-12;
+      } else {
+        none =
+            none && line.exact && whole(line.a * scale) && whole(line.b * scale) && whole(c) && std::fabs(c) < 0x1p52;
+      }
+    }
+    expect((batch_.doubt[lane] == 0) == none, "edges are without doubt where they can be");
+  }
+
   // In double, with D's sign; their rounding is what a tile's bound allows for.
   void unscaled_edges(std::uint32_t lane) {
-    const double sign = triangle_.determinant();
     for (std::size_t i = 0; i < 3; ++i) {
-      const EdgeFunction& edge = triangle_.edge(static_cast<int>(i));
+      const Line& line = line_[i];
       const auto near = [](double actual, double exact, double terms) {
         return std::fabs(actual - exact) <= terms * 0x1p-51;
       };
-      const Vertex &j = edge.from, &k = edge.to;
-      const double jx = j.x, jy = j.y, jw = j.w, kx = k.x, ky = k.y, kw = k.w;
-      expect(near(batch_.edge_a[i][lane], sign * edge.a, std::fabs(jy * kw) + std::fabs(jw * ky)) &&
-                 near(batch_.edge_b[i][lane], sign * edge.b, std::fabs(jw * kx) + std::fabs(jx * kw)) &&
-                 near(batch_.edge_c[i][lane], sign * edge.c, std::fabs(jx * ky) + std::fabs(jy * kx)),
+      // In W = 1 the first two are exact.
+      double j[3], k[3];
+      const std::size_t from = (i + 1) % 3, to = (i + 2) % 3;
+      if (draw_.grid) {
+        j[0] = corner_[from].x, j[1] = corner_[from].y, j[2] = 1, k[0] = corner_[to].x, k[1] = corner_[to].y, k[2] = 1;
+      } else {
+        const Vertex &v = triangle_.vertex(static_cast<int>(from)), &w = triangle_.vertex(static_cast<int>(to));
+        j[0] = v.x, j[1] = v.y, j[2] = v.w, k[0] = w.x, k[1] = w.y, k[2] = w.w;
+      }
+      const auto terms = [&](std::size_t p, std::size_t q) { return std::fabs(j[p] * k[q]) + std::fabs(j[q] * k[p]); };
+      const double c_terms = draw_.grid ? 2 * (std::fabs(line.a * j[0]) + std::fabs(line.b * j[1])) : terms(0, 1);
+      expect(near(batch_.edge_a[i][lane], sign_ * line.a, terms(1, 2)) &&
+                 near(batch_.edge_b[i][lane], sign_ * line.b, terms(2, 0)) &&
+                 near(batch_.edge_c[i][lane], sign_ * line.c, c_terms),
              "unscaled edges are the triangle's");
     }
   }
@@ -246,6 +459,8 @@ class BatchBounds {
     expect(has(batch_.clip, lane) == (draw_.depth_mode != DepthMode::none && !within), "`clip` is what may be clipped");
     const mpq_class determinant = sum_of(triangle_.exact_determinant_value());
     if (has(batch_.slow_depth, lane)) return;
+    expect(determinant != 0, "without D, no depth is known");
+    if (!broken_.empty()) return;
     const double z = batch_.z[lane], zx = batch_.z_x[lane], zy = batch_.z_y[lane], error = batch_.z_error[lane];
     expect(error >= 0 && error < 0x1p1000, "there is an error bound of depth");
     if (!broken_.empty()) return;
@@ -278,6 +493,18 @@ class BatchBounds {
   fast::DrawJob job_{};
   fast::Batch batch_;
   Triangle triangle_;
+  SnappedTriangle snapped_;
+  SamplePosition corner_[3] = {};  // of the snapped triangle
+  // E_i of what is drawn, in double; exact: without rounding errors.
+  struct Line {
+    double a, b, c;
+    bool exact;
+  };
+  Line line_[3] = {};
+  int sign_ = 0;                             // of D
+  std::uint64_t dropped_ = 0, reached_ = 0;  // lanes
+  std::uint64_t unsure_ = 0, turns_ = 0;     // signs and positions that may have to be looked up
+  bool clips_ = false;
   int x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0, origin_x_ = 0, origin_y_ = 0;
   std::string broken_;
 };

@@ -18,6 +18,7 @@
 #include <utility>
 
 #include "bounds.hpp"
+#include "grid.hpp"
 #include "properties/generators.hpp"
 #include "triangle.hpp"
 
@@ -36,6 +37,7 @@ class InternalBounds {
     sum();
     fraction();
     box();
+    if (random_.one_in(8)) snapped();
     return broken_;
   }
 
@@ -216,6 +218,95 @@ class InternalBounds {
     };
     along(&Vertex::x, actual.x0, actual.x1);
     along(&Vertex::y, actual.y0, actual.y1);
+  }
+
+  // A position in pixels on the grid (G1).
+  static mpq_class on_grid(const mpq_class& position, int offset, const Grid& grid) {
+    const mpq_class t = position * (1 << grid.bits) - mpq_class(offset) / 16;
+    const mpq_class shifted = grid.rounding == GridRounding::truncate ? t : t + mpq_class(1, 2);
+    mpz_class k;
+    mpz_fdiv_q(k.get_mpz_t(), shifted.get_num_mpz_t(), shifted.get_den_mpz_t());
+    if (grid.rounding == GridRounding::truncate && sgn(t) < 0 && k != t) ++k;
+    if (grid.rounding == GridRounding::nearest_even && k == shifted && mpz_odd_p(k.get_mpz_t()) != 0) --k;
+    return (k + mpq_class(offset) / 16) / (1 << grid.bits);
+  }
+
+  // Triangles that the guard band does not cut, or that lie behind the eye: their corners, their box, their depths.
+  void snapped() {
+    Grid grid{random_.between(0, 12), random_.between(0, 15), random_.between(0, 15),
+              static_cast<GridRounding>(random_.below(3))};
+    const bool behind = random_.one_in(4);
+    Vertex v[3];
+    for (Vertex& vertex : v) {
+      const float w = random_.one_in(2) ? 1.0f : std::fabs(power(-20, 20)) * static_cast<float>(1 + random_.unit());
+      const auto coordinate = [&] {
+        const int size = random_.one_in(2) ? 20 : kMaxTargetSize - 1;
+        return static_cast<float>(random_.between(-16 * size, 16 * size)) / 16 * w;
+      };
+      vertex = {coordinate(), coordinate(), component(), w};
+    }
+    if (random_.one_in(4)) {
+      // X / W is so near to m 2^-16 that in double it is that.
+      constexpr struct {
+        float x, w;
+        int m;  // modulo 16
+      } kNear[] = {{16519106, 16519105, 1}, {10845878, 10845877, 3}, {8937216, 8937209, 9}, {11545612, 11545611, 13}};
+      const auto& [x, w, m] = kNear[random_.below(4)];
+      v[0].x = x * (random_.one_in(4) ? -0x1p14f : 0x1p14f), v[0].w = w, v[0].y = w * 3;
+      grid.bits = 12, grid.offset_x = random_.one_in(2) ? m : (m + 8) % 16;
+      if (v[0].x < 0) grid.offset_x = (16 - grid.offset_x) % 16;
+    }
+    if (behind)
+      for (Vertex& vertex : v) vertex = {-vertex.x, -vertex.y, -vertex.z, -vertex.w};
+
+    Statistics statistics;
+    SnappedTriangle triangle;
+    const int first = random_.between(0, 40), last = first + random_.between(1, 400);
+    const PixelBox limits{first, first / 2, last, last + 1};
+    if (random_.one_in(2)) triangle.set_up({0, 0, 0, 1}, {9999, 1, 0, 1}, {7, 9999, 0, 1}, grid, statistics);  // before
+    if (!triangle.set_up(v[0], v[1], v[2], grid, statistics)) {
+      expect(behind || v[0].w <= 0, "a hull in front of the eye does not hold it");
+      return;
+    }
+    if (behind) {
+      expect(triangle.corners() == 0, "what lies behind the eye has no corners");
+      expect(triangle.box(limits, 0, 1).empty(), "the box of what lies behind the eye is empty");
+      return;
+    }
+    expect(triangle.corners() == 3, "what the guard band does not cut has three corners");
+    mpq_class low[2] = {1 << 20, 1 << 20}, high[2] = {-(1 << 20), -(1 << 20)};
+    float least = std::numeric_limits<float>::max(), most = -least;
+    for (int k = 0; k < 3; ++k) {
+      const Vertex& vertex = v[k];
+      const float at[2] = {vertex.x, vertex.y};
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        const int offset = axis == 0 ? grid.offset_x : grid.offset_y;
+        const mpq_class position = on_grid(mpq_class(at[axis]) / vertex.w, offset, grid);
+        const double corner = axis == 0 ? triangle.corner(k).x : triangle.corner(k).y;
+        expect(corner == position, "corners are on the grid");
+        expect(snapped_position(at[axis], vertex.w, offset, grid, statistics) == position, "positions are on the grid");
+        low[axis] = std::min(low[axis], position), high[axis] = std::max(high[axis], position);
+      }
+      const float z = vertex.z / vertex.w;
+      least = std::min(least, z), most = std::max(most, z);
+    }
+    const DepthRange& range = triangle.depth_range();
+    const float largest = std::numeric_limits<float>::max();
+    expect(range.low == std::clamp(least, -largest, largest) && range.high == std::clamp(most, -largest, largest),
+           "the range of depth is that of the corners");
+    const double offset = random_.below(16) / 16.0;
+    PixelBox box = limits;
+    const auto clip = [&](std::size_t axis, int* from, int* to) {
+      const int begin = *from, end = *to;
+      *from = end, *to = begin;
+      for (int i = begin; i < end; ++i)
+        if (low[axis] <= i + offset && i + offset <= high[axis]) *from = std::min(*from, i), *to = i + 1;
+    };
+    clip(0, &box.x0, &box.x1), clip(1, &box.y0, &box.y1);
+    const PixelBox actual = triangle.box(limits, offset, offset);
+    expect(actual.empty() == box.empty() && (box.empty() || (actual.x0 == box.x0 && actual.x1 == box.x1 &&
+                                                             actual.y0 == box.y0 && actual.y1 == box.y1)),
+           "the box is that of the corners");
   }
 
   Random random_;

@@ -31,6 +31,12 @@ int random_threads(Random& random) {
   return random.one_in(4) ? random.between(2, 3) : 1;
 }
 
+// Identifiers that several triangles have: the positions decide (V2, M5).
+void share_identifiers(corpus::Scene& scene, Random& random) {
+  for (corpus::SceneDraw& draw : scene.draws)
+    for (corpus::SceneTriangle& triangle : draw.triangles) triangle.identifier = random.below(2);
+}
+
 PathScene random_case(std::uint64_t number, int size, int triangles) {
   Random random(number);
   const auto all = categories();
@@ -40,6 +46,7 @@ PathScene random_case(std::uint64_t number, int size, int triangles) {
   PathScene made{random_scene(all[number % all.size()], number, limits), {}, random_threads(random)};
   made.outputs = random_outputs(made.scene, random);
   made.in_place = random.one_in(2), made.executor = random.one_in(4), made.streams = random.one_in(3);
+  if (random.one_in(8)) share_identifiers(made.scene, random);
   return made;
 }
 
@@ -216,6 +223,35 @@ PathScene clipped_case(std::uint64_t number) {
   return made;
 }
 
+// Fine grids and long edges, which no int32 holds exactly: edges run through samples, or a grid step beside them.
+PathScene snapped_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = random.between(8, 200), scene.height = random.between(8, 200);
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  draw.grid = Grid{random.between(8, 12), 0, 0, static_cast<GridRounding>(random.below(3))};
+  const float step = std::ldexp(1.0f, -draw.grid->bits);
+  for (std::uint32_t t = 0, count = 1 + random.below(12); t < count; ++t) {
+    const auto sample = [&](int size) { return static_cast<float>(random.between(0, size - 1)) + 0.5f; };
+    const auto beside = [&] { return static_cast<float>(random.between(-1, 1)) * (random.one_in(2) ? step : 0); };
+    const float x = sample(scene.width), y = sample(scene.height);
+    const int most = random.one_in(3) ? 7000 : 300, slope = random.one_in(2) ? 1 : 2;
+    const float dx = static_cast<float>(random.between(-slope, slope)), dy = static_cast<float>(random.between(-1, 1));
+    const float back = static_cast<float>(random.between(0, most)), ahead = static_cast<float>(random.between(1, most));
+    Vertex v[3] = {
+        {x - back * dx + beside(), y - back * dy + beside(), 0.25f, 1},
+        {x + ahead * dx + beside(), y + ahead * dy + beside(), 0.5f, 1},
+        {sample(2 * scene.width), sample(2 * scene.height), static_cast<float>(random.between(0, 8)) / 8, 1}};
+    if (random.one_in(2)) std::swap(v[0], v[1]);
+    append(draw, v);
+  }
+  add_state(scene, random);
+  made.outputs = random_outputs(scene, random);
+  made.threads = random_threads(random), made.streams = random.one_in(4);
+  return made;
+}
+
 // Right triangles with legs of a power of two, where the weights of a sample have few bits: depth and an attribute at
 // one sample are halfway between two float32, but for a bit that no double has beside the others; or exactly.
 PathScene halfway_case(std::uint64_t number) {
@@ -281,6 +317,7 @@ constexpr PathCases kCases[] = {
     {"crowd", "more triangles than are set up at a time", 150, crowd_case},
     {"halfway", "values halfway between two float32, but for what a double cannot hold", 3000, halfway_case},
     {"clipped", "slivers that Grid clips and folds", 300, clipped_case},
+    {"snapped", "edges on samples of a fine grid, and a step beside them", 1000, snapped_case},
     {"layers", "planes over whole tiles, as near to each other as hierarchical z can tell", 150, layers_case},
 };
 
@@ -371,10 +408,13 @@ PathResult draw_path(const PathScene& of, const Options& with) {
       }
     }
   };
+  Statistics statistics;
   const Status status =
-      visit_coverage(target.width, target.height, target.samples, frame.draws(), {visit, &sink}, nullptr, options);
+      visit_coverage(target.width, target.height, target.samples, frame.draws(), {visit, &sink}, &statistics, options);
   result.stream = sink.sum + static_cast<std::uint64_t>(status);
-  if (status == Status::ok && !image.count.empty()) result.counts_agree = sink.counts == image.count;
+  if (status == Status::ok && !image.count.empty())
+    result.counts_agree = sink.counts == image.count && statistics.triangles == result.statistics.triangles &&
+                          statistics.dropped == result.statistics.dropped;
   return result;
 }
 

@@ -34,7 +34,7 @@ std::span<const PathCases> all_path_cases();
 // What a path makes of a case: hashes, or of the status that came instead.
 struct PathResult {
   std::uint64_t hash = 0, stream = 0;  // of the image, and of coverage as it is streamed
-  bool counts_agree = true;            // of the image and of the stream
+  bool counts_agree = true;            // of the image and of the stream: of fragments, and of triangles
   Statistics statistics;
 };
 PathResult draw_path(const PathScene& of, const Options& options);

@@ -2,7 +2,7 @@
 //
 // Mutant schemata: every mutant of the engine is compiled in, and one, chosen at run time, is alive. An operator
 // between two operands becomes itself on either side of a marker, so that precedence stays:  a + b  is  a + Marked<7>{}
-// + b.
+// + b. Operands are values: a reference may be bound to an element beyond an array's end unnoticed.
 #ifndef SUREFILL_PROPERTIES_SCHEMATA_MUTANT_HPP
 #define SUREFILL_PROPERTIES_SCHEMATA_MUTANT_HPP
 
@@ -27,11 +27,11 @@ struct Left {
 
 #define SUREFILL_MUTANT_OPERATOR(op, instead)                                                \
   template <class Value, unsigned N>                                                         \
-  Left<std::decay_t<Value>, N> operator op(Value&& value, Marked<N>) {                       \
+  Left<Value, N> operator op(Value value, Marked<N>) {                                       \
     return {value};                                                                          \
   }                                                                                          \
   template <class Value, unsigned N, class Right>                                            \
-  auto operator op(const Left<Value, N>& left, const Right& right) {                         \
+  auto operator op(Left<Value, N> left, Right right) {                                       \
     using Result = decltype(left.value op right);                                            \
     return alive<N>() ? static_cast<Result>(left.value instead right) : left.value op right; \
   }

@@ -86,6 +86,16 @@ std::vector<certify::Check> suite(const certify::Settings& settings) {
     result.differences = properties::draw_path(scene, {}).counts_agree ? 0 : 1;
     return result;
   };
+  certify::Check& cases = checks.emplace_back(certify::make_check("paths-small", "", "its test"));
+  cases.prepare = [] { return std::uint64_t{1} << 32; };
+  cases.run = [](std::uint64_t number) {
+    certify::CaseResult result;
+    const properties::PathScene scene = properties::all_path_cases()[0].make(number);
+    result.differences =
+        properties::compare(scene.scene, properties::engine_renderer(), properties::oracle_renderer(), scene.outputs)
+            .differences;
+    return result;
+  };
 #else
   using Bounds = properties::BatchBounds;
   add_path_checks(settings, checks);

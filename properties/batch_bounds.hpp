@@ -44,6 +44,7 @@ class BatchBounds {
       draw_.grid = Grid{random_.between(0, 12), random_.between(0, 15), random_.between(0, 15),
                         static_cast<GridRounding>(random_.below(3))};
     const bool thin = draw_.grid && random_.one_in(3);
+    if (thin) draw_.grid->bits = random_.between(10, 12);
     for (std::uint32_t t = 0; t < count; ++t) {
       for (const Vertex& v : thin     ? thin_triangle()
                              : uneven ? uneven_triangle()
@@ -51,6 +52,10 @@ class BatchBounds {
         indices.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back(v);
       }
+    }
+    if (random_.one_in(8)) {  // on the border of the guard band
+      Vertex& v = vertices[random_.below(static_cast<std::uint32_t>(vertices.size()))];
+      (random_.one_in(2) ? v.x : v.y) = static_cast<float>(random_.one_in(2) ? kGuardBand : -kGuardBand) * v.w;
     }
     draw_.vertices = vertices, draw_.indices = indices;
     draw_.fill_rule = static_cast<FillRule>(random_.below(8));
@@ -111,26 +116,24 @@ class BatchBounds {
     }
     return made;
   }
-  // Snapped to the grid, its corners are as near to one line as they can be, and far apart: P, P + (a, b) and P + t (a,
-  // b)
-  // + (u, v) with a v - b u = 1 grid step.
+  // Snapped to the grid, its corners are as near to one line as they can be, and far apart: P, Q and P + (u, v), where
+  // (Q - P) x (u, v) is 1, or 0, grid step each way.
   std::array<Vertex, 3> thin_triangle() {
     const double steps = 1 << draw_.grid->bits;
-    const auto any = [&](double pixels) { return std::round((2 * random_.unit() - 1) * pixels * steps); };
-    std::int64_t a = static_cast<std::int64_t>(any(8000)) | 1, b = static_cast<std::int64_t>(any(8000));
-    std::int64_t r0 = a, r1 = b, v0 = 1, v1 = 0, u0 = 0, u1 = 1;  // Euclid: r = a v + b u
+    const auto any = [&] { return std::round((2 * random_.unit() - 1) * (kMaxTargetSize - 1) * steps); };
+    const double x = any(), y = any(), dx = any() - x, dy = any() - y;
+    auto r0 = static_cast<std::int64_t>(dx), r1 = static_cast<std::int64_t>(dy);
+    double v0 = 1, v1 = 0, u0 = 0, u1 = 1;  // Euclid: r = dx v + dy u, so that dx v0 + dy u0 divides both
     while (r1 != 0) {
       const std::int64_t q = r0 / r1;
       std::tie(r0, r1) = std::pair(r1, r0 - q * r1);
-      std::tie(v0, v1) = std::pair(v1, v0 - q * v1);
-      std::tie(u0, u1) = std::pair(u1, u0 - q * u1);
+      std::tie(v0, v1) = std::pair(v1, v0 - static_cast<double>(q) * v1);
+      std::tie(u0, u1) = std::pair(u1, u0 - static_cast<double>(q) * u1);
     }
-    const double x = any(8000), y = any(8000), da = static_cast<double>(a), db = static_cast<double>(b);
-    const double t = random_.below(2), flat = random_.one_in(4) ? 0 : 1;
-    const double corner[3][2] = {
-        {x, y},
-        {x + da, y + db},
-        {x + t * da - flat * static_cast<double>(u0), y + t * db + flat * static_cast<double>(v0)}};
+    double u = -u0, v = v0;
+    if (u * dx + v * dy < 0) u += dx, v += dy;
+    if (random_.one_in(4)) u = dx, v = dy;
+    const double corner[3][2] = {{x, y}, {x + dx, y + dy}, {x + u, y + v}};
     std::array<Vertex, 3> made;
     for (std::size_t k = 0; k < 3; ++k) {
       // A W with which float32 numbers come near enough, mostly.
@@ -140,7 +143,7 @@ class BatchBounds {
         return std::fabs(static_cast<double>(static_cast<float>(at * w)) / w - at) * steps;
       };
       float w = 1;
-      for (int tries = 0; tries < 60 && std::max(error(at_x, w), error(at_y, w)) > 0.4; ++tries)
+      for (int tries = 0; tries < 300 && std::max(error(at_x, w), error(at_y, w)) > 0.4; ++tries)
         w = static_cast<float>(1 + random_.unit());
       made[k] = {static_cast<float>(at_x * w), static_cast<float>(at_y * w), w / 2, w};
     }

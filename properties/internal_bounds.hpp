@@ -37,6 +37,7 @@ class InternalBounds {
     sum();
     fraction();
     box();
+    plane();
     if (random_.one_in(8)) snapped();
     return broken_;
   }
@@ -218,6 +219,25 @@ class InternalBounds {
     };
     along(&Vertex::x, actual.x0, actual.x1);
     along(&Vertex::y, actual.y0, actual.y1);
+  }
+
+  // Triangles whose plane passes the eye beside a pixel's centre, by next to nothing.
+  void plane() {
+    const auto number = [&] {
+      return random_.one_in(4) ? power(-90, -30) : static_cast<float>(random_.between(-3, 3));
+    };
+    const Vertex v[3] = {
+        {number(), number(), 0, number()}, {number(), number(), 0, number()}, {number(), number(), 0, number()}};
+    Triangle triangle;
+    Statistics statistics;
+    if (!triangle.set_up(v[0], v[1], v[2], statistics)) return;
+    const SamplePosition p{random_.between(0, 3) + 0.5, random_.between(0, 3) + 0.5};
+    mpq_class sum;
+    for (int i = 0; i < 3; ++i) {
+      const auto value = triangle.edge(i).exact_value(p);
+      for (int n = 0; n < value.size(); ++n) sum += value.term(n);
+    }
+    expect(triangle.plane_in_front(p) == (sgn(sum) == triangle.determinant()), "on which side the plane lies is exact");
   }
 
   // A position in pixels on the grid (G1).

@@ -81,6 +81,7 @@ class BatchBounds {
     expect(statistics.rasterized == (draw_.grid ? reached_ : static_cast<unsigned>(__builtin_popcount(batch_.live))),
            "the statistics count what is drawn");
     expect(statistics.dropped == dropped_, "what is not finite is dropped");
+    if (random_.one_in(8)) shares(count, size, statistics);
     if (clips_) return broken_;
     expect(statistics.signs_by_filter + statistics.signs_by_expansion <= unsure_,
            "the sign of D is looked up only where doubles may not tell it");
@@ -200,6 +201,37 @@ class BatchBounds {
     what_is_set_up(lane, v);
   }
 
+  // Each of several threads sets up what reaches its bands, and all together count as one alone.
+  void shares(std::uint32_t count, int height, const Statistics& alone) {
+    const int threads = random_.between(2, 3), bands = (height + fast::kTileSize - 1) >> fast::kTileLog2;
+    Statistics sum;
+    for (int thread = 0; thread < threads; ++thread) {
+      const fast::BandSet owned(thread, threads, bands);
+      fast::Batch share;
+      std::fill_n(reinterpret_cast<unsigned char*>(&share), sizeof share, static_cast<unsigned char>(0x7E));
+      fast::kernels().set_up(job_, owned, 0, count, share, sum);
+      for (std::uint32_t lane = 0; lane < count; ++lane) {
+        if (has(share.live, lane)) {
+          bool same = has(batch_.live, lane) && share.first_x[lane] == batch_.first_x[lane] &&
+                      share.last_x[lane] == batch_.last_x[lane] && share.first_y[lane] == batch_.first_y[lane] &&
+                      share.last_y[lane] == batch_.last_y[lane];
+          for (std::size_t i = 0; i < 3; ++i) same = same && share.e[i][lane] == batch_.e[i][lane];
+          expect(same, "a thread's share is what one alone has");
+        } else if (has(batch_.live, lane)) {
+          for (int y = batch_.first_y[lane]; y <= batch_.last_y[lane]; ++y)
+            expect(!owned.owns(y >> fast::kTileLog2), "what reaches a thread's bands is set up");
+        }
+      }
+    }
+    expect(sum.triangles == alone.triangles && sum.dropped == alone.dropped && sum.degenerate == alone.degenerate &&
+               sum.culled == alone.culled && sum.outside == alone.outside && sum.rasterized == alone.rasterized &&
+               sum.small == alone.small && sum.medium == alone.medium && sum.large == alone.large &&
+               sum.clipped == alone.clipped && sum.signs_by_filter == alone.signs_by_filter &&
+               sum.signs_by_expansion == alone.signs_by_expansion && sum.values_by_filter == alone.values_by_filter &&
+               sum.values_by_expansion == alone.values_by_expansion,
+           "threads count together as one alone");
+  }
+
   // The same under Grid, for the triangle on the grid.
   void check_snapped(std::uint32_t lane, const Vertex* const (&v)[3], bool finite) {
     bool whole = finite;
@@ -258,6 +290,8 @@ class BatchBounds {
     const float low = std::min({range[0], range[1], range[2]}), high = std::max({range[0], range[1], range[2]});
     expect(batch_.z_least[lane] == (job_.greater ? -high : low) && batch_.z_most[lane] == (job_.greater ? -low : high),
            "the range of depth is that of the corners");
+    for (const float end : {batch_.z_least[lane], batch_.z_most[lane]})
+      expect(end != 0 || !std::signbit(end), "the range of depth has no -0");
   }
 
   // Counts the coordinates of corners of which doubles alone may not be able to round one to the grid.

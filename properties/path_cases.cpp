@@ -340,7 +340,8 @@ std::string broken_statistics(const Statistics& s, const Statistics& reference, 
 
 bool same(const Statistics& a, const Statistics& b) {
   return a.triangles == b.triangles && a.dropped == b.dropped && a.degenerate == b.degenerate && a.culled == b.culled &&
-         a.outside == b.outside && a.rasterized == b.rasterized && a.signs_by_filter == b.signs_by_filter &&
+         a.outside == b.outside && a.rasterized == b.rasterized && a.small == b.small && a.medium == b.medium &&
+         a.large == b.large && a.clipped == b.clipped && a.signs_by_filter == b.signs_by_filter &&
          a.signs_by_residual == b.signs_by_residual && a.signs_by_expansion == b.signs_by_expansion &&
          a.values_by_filter == b.values_by_filter && a.values_by_expansion == b.values_by_expansion;
 }

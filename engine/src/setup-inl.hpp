@@ -175,7 +175,7 @@ HWY_INLINE void StoreDepth(const DrawJob& job, const Corner (&v)[3], const Edges
 
 // Lanes that SetUp counts.
 struct FoundLanes {
-  std::uint32_t counted = 0, finite = 0, reached = 0, degenerate = 0, culled = 0;
+  std::uint32_t counted = 0, finite = 0, reached = 0, degenerate = 0, culled = 0, drawn = 0;
 };
 
 // Which of some lanes have boxes that meet a band of the set, and of which it is the first band. Without a branch for
@@ -339,7 +339,7 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const BandSet& bands, const Ba
     const std::uint32_t front = draw.front_face == FrontFace::clockwise ? ~batch.negative : batch.negative;
     found.culled = (draw.cull == Cull::front ? front : ~front) & found.reached & ~found.degenerate;
   }
-  batch.live = found.reached & ~found.degenerate & ~found.culled;
+  batch.live = found.drawn = found.reached & ~found.degenerate & ~found.culled;
   if (!bands.all && !by_band) batch.live &= OwnedLanes(bands, batch, 0, kBatch).any;
   return found;
 }
@@ -399,6 +399,7 @@ void SetUp(const DrawJob& job, const BandSet& bands, std::uint32_t first, std::u
     found.reached &= found.finite;
     found.degenerate &= found.finite;
     found.culled &= found.finite;
+    found.drawn &= found.finite;
     batch.live &= found.finite;
   }
   if (HWY_UNLIKELY(draw.grid.has_value())) {  // facing and emptiness are matters of the sample (G1)
@@ -416,9 +417,9 @@ void SetUp(const DrawJob& job, const BandSet& bands, std::uint32_t first, std::u
   statistics.degenerate += ones(found.degenerate);
   statistics.culled += ones(found.culled);
   statistics.rasterized += ones(found.reached & ~found.degenerate & ~found.culled);
-  statistics.small += ones(batch.live & batch.small);
-  statistics.medium += ones(batch.live & batch.medium & ~batch.small);
-  statistics.large += ones(batch.live & ~batch.medium & ~batch.small);
+  statistics.small += ones(found.drawn & batch.small);
+  statistics.medium += ones(found.drawn & batch.medium & ~batch.small);
+  statistics.large += ones(found.drawn & ~batch.medium & ~batch.small);
   statistics.clipped += ones(batch.clipped);
 }
 

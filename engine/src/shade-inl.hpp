@@ -92,6 +92,10 @@ class Shader {
           hwy::Prefetch(triangle);
         } else {
           for (std::size_t i = 0; i < 3; ++i) hwy::Prefetch(&of.vertices[triangle[i]]);
+          for (const AttributeArray& in : of.attributes) {
+            const std::size_t stride = in.stride != 0 ? in.stride : in.components;
+            for (std::size_t i = 0; i < 3; ++i) hwy::Prefetch(&in.values[triangle[i] * stride]);
+          }
         }
       }
     }

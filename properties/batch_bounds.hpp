@@ -43,12 +43,14 @@ class BatchBounds {
     if (random_.one_in(3))
       draw_.grid = Grid{random_.between(0, 12), random_.between(0, 15), random_.between(0, 15),
                         static_cast<GridRounding>(random_.below(3))};
-    const bool thin = draw_.grid && random_.one_in(3);
+    const bool thin = draw_.grid && random_.one_in(3), crossing = !thin && random_.one_in(6);
+    const int x = random_.between(0, kMaxTargetSize - 4), y = random_.between(0, kMaxTargetSize - 4);
     if (thin) draw_.grid->bits = random_.between(10, 12);
     for (std::uint32_t t = 0; t < count; ++t) {
-      for (const Vertex& v : thin     ? thin_triangle()
-                             : uneven ? uneven_triangle()
-                                      : category.triangle(random_, size, size)) {
+      for (const Vertex& v : thin       ? thin_triangle()
+                             : crossing ? crossing_triangle(x, y)
+                             : uneven   ? uneven_triangle()
+                                        : category.triangle(random_, size, size)) {
         indices.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back(v);
       }
@@ -67,6 +69,7 @@ class BatchBounds {
         sample_location(samples, uneven ? random_.between(12, 15) : random_.between(0, samples - 1));
     PixelBox region{0, 0, size, size};
     if (random_.one_in(3)) region = {size / 4, size / 5, size - size / 3, size - size / 7};
+    if (crossing) region = {x, y, x + random_.between(1, 3), y + random_.between(1, 3)};
     job_ = {
         &draw_, 0, region, {location.x / 16.0, location.y / 16.0}, tie_shift(draw_.fill_rule), true, random_.one_in(3),
         0,      0};
@@ -81,7 +84,7 @@ class BatchBounds {
     expect(statistics.rasterized == (draw_.grid ? reached_ : static_cast<unsigned>(__builtin_popcount(batch_.live))),
            "the statistics count what is drawn");
     expect(statistics.dropped == dropped_, "what is not finite is dropped");
-    if (random_.one_in(8)) shares(count, size, statistics);
+    if (random_.one_in(8)) shares(count, std::max(size, region.y1), statistics);
     if (clips_) return broken_;
     expect(statistics.signs_by_filter + statistics.signs_by_expansion <= unsure_,
            "the sign of D is looked up only where doubles may not tell it");
@@ -114,6 +117,20 @@ class BatchBounds {
     for (Vertex& v : made) {
       v = {number(-2, 14), number(-2, 14), number(0, 3), random_.one_in(3) ? number(1, 3) : 1.0f};
       if (random_.one_in(16)) v.w = random_.one_in(2) ? 0.0f : -0.0f;
+    }
+    return made;
+  }
+  // Around (x, y), where its depth passes 0: far from the origin of the screen, the errors of E_i are all there is.
+  std::array<Vertex, 3> crossing_triangle(int x, int y) {
+    const double slope_x = random_.unit() - 0.5, slope_y = random_.unit() - 0.5;
+    const int reach = 1 << random_.between(1, 10);
+    std::array<Vertex, 3> made;
+    for (Vertex& v : made) {
+      const double w = random_.one_in(2) ? 1 : 1 + random_.unit();
+      const double dx = (2 * random_.unit() - 1) * reach, dy = (2 * random_.unit() - 1) * reach;
+      v = {static_cast<float>((x + dx) * w), static_cast<float>((y + dy) * w), 0, static_cast<float>(w)};
+      v.z = static_cast<float>((v.x / static_cast<double>(v.w) - x) * slope_x * v.w +
+                               (v.y / static_cast<double>(v.w) - y) * slope_y * v.w);
     }
     return made;
   }
@@ -329,7 +346,7 @@ class BatchBounds {
     expect(medium == (x1_ - (x0_ & ~7) < 64 && y1_ - (y0_ & ~7) < 64), "`medium` is 8 x 8 blocks");
     expect(has(batch_.negative, lane) == (sign_ < 0), "`negative` is D < 0");
     if (small || medium) edges(lane, small ? 16 : 64);
-    if (small || medium) doubt(lane, small ? 24 : 22);
+    if (small || medium) doubt(lane, small ? 24 : 22, small ? 16 : 64);
     if (!small) unscaled_edges(lane);
     depth(lane, v);
   }
@@ -417,9 +434,10 @@ class BatchBounds {
     return left > right ? 1 : left < right ? -1 : 0;
   }
 
-  // There is none exactly if all edges are integers in units of the scale: a and b, and c in 2^-10 of them; under Grid,
-  // where corners are integers anyway, if the scale has bits for the smallest value (grid-inl.hpp).
-  void doubt(std::uint32_t lane, int exponent) {
+  // Twice the bound of rounding. There is none exactly if all edges are integers in units of the scale: a and b, and c
+  // in 2^-10 of them; under Grid, where corners are integers anyway, if the scale has bits for the smallest value
+  // (grid-inl.hpp).
+  void doubt(std::uint32_t lane, int exponent, int bound) {
     bool none = true;
     for (const Line& line : line_) {
       const double largest = std::max({std::fabs(line.a), std::fabs(line.b), 0x1p-400});
@@ -433,7 +451,7 @@ class BatchBounds {
             none && line.exact && whole(line.a * scale) && whole(line.b * scale) && whole(c) && std::fabs(c) < 0x1p52;
       }
     }
-    expect((batch_.doubt[lane] == 0) == none, "edges are without doubt where they can be");
+    expect(batch_.doubt[lane] == (none ? 0 : 2 * bound), "edges are without doubt where they can be");
   }
 
   // In double, with D's sign; their rounding is what a tile's bound allows for.
@@ -495,7 +513,19 @@ class BatchBounds {
     for (const Vertex* vertex : v) within = within && vertex->w > 0 && vertex->z >= 0 && vertex->z <= vertex->w;
     expect(has(batch_.clip, lane) == (draw_.depth_mode != DepthMode::none && !within), "`clip` is what may be clipped");
     const mpq_class determinant = sum_of(triangle_.exact_determinant_value());
-    if (has(batch_.slow_depth, lane)) return;
+    double size = 0, terms = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const EdgeFunction& edge = triangle_.edge(static_cast<int>(i));
+      const double x = x1_ + 1.0, y = y1_ + 1.0;
+      terms += (std::fabs(edge.a) * x + std::fabs(edge.b) * y + std::fabs(edge.c)) * std::fabs(v[i]->w);
+      size += std::fabs(static_cast<double>(v[i]->z));
+    }
+    const double d = std::fabs(determinant.get_d()), least = std::min({v[0]->w, v[1]->w, v[2]->w});
+    const bool well_shaped = least > 0 && terms < 0x1p20 * d;  // and in front of the eye
+    if (has(batch_.slow_depth, lane)) {
+      expect(!well_shaped || size / least * (terms / d) > 1e30, "depth is known where it can be");
+      return;
+    }
     expect(determinant != 0, "without D, no depth is known");
     if (!broken_.empty()) return;
     const double z = batch_.z[lane], zx = batch_.z_x[lane], zy = batch_.z_y[lane], error = batch_.z_error[lane];
@@ -508,17 +538,7 @@ class BatchBounds {
       expect(abs(real - value) <= error, "the error bound of depth holds");
     });
     if (has(batch_.small, lane)) depth_in_parts(lane, determinant);
-    // A well-shaped triangle in front of the eye.
-    double size = 0, terms = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const EdgeFunction& edge = triangle_.edge(static_cast<int>(i));
-      const double x = x1_ + 1.0, y = y1_ + 1.0;
-      terms += (std::fabs(edge.a) * x + std::fabs(edge.b) * y + std::fabs(edge.c)) * std::fabs(v[i]->w);
-      size += std::fabs(static_cast<double>(v[i]->z));
-    }
-    const double d = std::fabs(determinant.get_d());
-    if (v[0]->w > 0 && v[1]->w > 0 && v[2]->w > 0 && terms < 0x1p20 * d) {
-      const double least = std::min({v[0]->w, v[1]->w, v[2]->w});
+    if (well_shaped) {
       const double slope = (std::fabs(zx) + std::fabs(zy)) * (64 + (x1_ - x0_) + (y1_ - y0_)) + std::fabs(z);
       expect(error <= 0x1p-46 * (size / least + slope) * (terms / d),
              "the error bound of depth is no wider than need be");

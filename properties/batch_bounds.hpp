@@ -78,7 +78,12 @@ class BatchBounds {
     Statistics statistics;
     fast::kernels().set_up(job_, fast::BandSet(), 0, count, batch_, statistics);
     if (statistics.triangles != count ||
-        statistics.clipped != static_cast<unsigned>(__builtin_popcount(batch_.clipped)))
+        statistics.clipped != static_cast<unsigned>(__builtin_popcount(batch_.clipped)) ||
+        statistics.small != static_cast<unsigned>(__builtin_popcount(batch_.live & batch_.small)) ||
+        statistics.small + statistics.medium !=
+            static_cast<unsigned>(__builtin_popcount(batch_.live & (batch_.medium | batch_.small))) ||
+        statistics.small + statistics.medium + statistics.large !=
+            static_cast<unsigned>(__builtin_popcount(batch_.live)))
       return "the statistics count lanes";
     for (std::uint32_t lane = 0; lane < count; ++lane) check(lane);
     expect(statistics.rasterized == (draw_.grid ? reached_ : static_cast<unsigned>(__builtin_popcount(batch_.live))),

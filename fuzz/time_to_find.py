@@ -38,7 +38,7 @@ FAULTS = {
     "snap_halfway": ("grid", "halfway between grid positions, ties not to even"),
     "snap_bound": ("grid", "error bound of snapping too small"),
     "guard_band_cut": ("grid", "cut at the guard band depends on the order of the end points"),
-    "depth_tie": ("scene", "equal depths resolved by position and not by identifier"),
+    "depth_tie": ("paths", "equal depths resolved by position and not by identifier"),
     "viewport_rung": ("scene", "viewport map rounded twice"),
     "small_bound": ("paths", "uncertain lanes of small triangles not all settled exactly"),
     "tile_border": ("paths", "last column where it begins a tile"),

@@ -46,6 +46,7 @@ FAULTS = {
     "hierarchical_z": ("paths", "hierarchical z that looks at 7 of 8 samples"),
     "batch_lane": ("paths", "lane 5 of a batch draws lane 4's triangle"),
     "depth_bound": ("paths", "error bound of depth planes too small"),
+    "parts_bound": ("paths", "error bound of depth in parts without what the parts add"),
     "index_check": ("arguments", "an index one past the vertices is accepted"),
     "reader_bounds": ("reader", "a vertex number one past the vertices is read"),
 }

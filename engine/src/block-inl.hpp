@@ -178,6 +178,7 @@ class Rasterizer {
     std::uint32_t cells = ~outside & ((0x2222u << columns) - 0x1111u) & ((0x10u << (4 * rows)) - 1);
     if (!bands_.all) cells &= OwnedRows(y, 4);
     partly_.Append(lane, cells);
+    small_doubt_ = std::max(small_doubt_, batch.doubt[lane]);
   }
 
   // Steps of depth in lanes i ... of a slot's cells.
@@ -209,9 +210,8 @@ class Rasterizer {
 
   HWY_INLINE void DrawSmall() {
     if (partly_.size == 0) return;
-    std::int32_t doubt = 0;  // the largest of the batch: at worst, doubts are looked into that are none
-    for (const std::int32_t of_lane : batch_->doubt) doubt = std::max(doubt, of_lane);
-    DrawCells<true>(doubt);
+    DrawCells<true>(small_doubt_);
+    small_doubt_ = 0;
   }
 
   // Of four rows of cells, or of areas, those that meet bands of this set.
@@ -658,6 +658,7 @@ class Rasterizer {
   bool special_ = false;          // some lanes are not drawn as most are
   std::uint32_t plane_lane_ = 0;  // of what is drawn tile by tile
   std::int32_t plane_doubt_ = 0;
+  std::int32_t small_doubt_ = 0;  // the largest of those noted: at worst, doubts are looked into that are none
   Steps steps_;
   Areas areas_;
   alignas(64) std::int32_t cell_step_[3][16], area_step_[3][16];  // edge functions: to cells of an area, to areas

@@ -276,7 +276,7 @@ class Splitter {
     low = hn::DemoteTo(df, hn::Sub(v, whole));
   }
   HWY_INLINE V Error(V error) const {
-    const V sum = hn::Add(error, hn::Mul(power_, hn::Set(D(), kSplitError)));
+    const V sum = hn::Add(error, hn::Mul(power_, hn::Set(D(), SUREFILL_PLANT(parts_bound) ? 0 : kSplitError)));
     return hn::Add(hn::Mul(sum, hn::Set(D(), 1 + 0x1p-20)), hn::Set(D(), 0x1p-146));
   }
 

@@ -49,6 +49,8 @@ struct SceneLimits {
 
 // A scene of triangles of this category (others mixed in where a scene has several).
 corpus::Scene random_scene(const Category& category, std::uint64_t seed, const SceneLimits& limits = {});
+// The same, in every mode as the seed has it: several samples a pixel, Grid, conservative frames.
+corpus::Scene mixed_scene(const Category& category, std::uint64_t seed, int max_size, int max_triangles);
 
 }  // namespace surefill::properties
 

@@ -228,4 +228,14 @@ Scene random_scene(const Category& category, std::uint64_t seed, const SceneLimi
   return scene;
 }
 
+Scene mixed_scene(const Category& category, std::uint64_t seed, int max_size, int max_triangles) {
+  SceneLimits limits;
+  limits.max_size = max_size;
+  limits.max_triangles = max_triangles;
+  limits.samples = (seed & 1) != 0;
+  limits.grid = (seed & 2) != 0;
+  limits.conservative = seed % 3 == 2;
+  return random_scene(category, seed, limits);
+}
+
 }  // namespace surefill::properties

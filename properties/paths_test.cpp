@@ -50,17 +50,6 @@ TEST(Paths, OptionsAreChecked) {
 
 #if !defined(SUREFILL_REFERENCE_ONLY)
 
-// Frames of every mode: several samples a pixel among them, Grid, conservative ones.
-corpus::Scene fast_scene(const Category& category, std::uint64_t seed, int size, int triangles) {
-  SceneLimits limits;
-  limits.max_size = size;
-  limits.max_triangles = triangles;
-  limits.samples = (seed & 1) != 0;
-  limits.grid = (seed & 2) != 0;
-  limits.conservative = seed % 3 == 2;
-  return random_scene(category, seed, limits);
-}
-
 class OnTarget : public testing::TestWithParam<std::int64_t> {
  protected:
   void SetUp() override {
@@ -76,7 +65,7 @@ class OnTarget : public testing::TestWithParam<std::int64_t> {
 void compare_paths(std::int64_t target, int size, int triangles, std::uint64_t scenes) {
   for (const Category& category : categories()) {
     for (std::uint64_t seed = 0; seed < scenes; ++seed) {
-      const corpus::Scene scene = fast_scene(category, seed, size, triangles);
+      const corpus::Scene scene = mixed_scene(category, seed, size, triangles);
       std::string reference, fast;
       const Options two_threads{.threads = 1 + static_cast<int>(seed & 1)};
       const Comparison result =
@@ -201,7 +190,7 @@ TEST_P(Reach, EveryRungOfTheLadder) {
   Statistics sum;
   for (const Category& category : categories()) {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
-      const Statistics s = draw(fast_scene(category, seed, 40, 6));
+      const Statistics s = draw(mixed_scene(category, seed, 40, 6));
       sum.signs_by_filter += s.signs_by_filter;
       sum.signs_by_residual += s.signs_by_residual;
       sum.signs_by_expansion += s.signs_by_expansion;

@@ -26,16 +26,6 @@
 namespace surefill::properties {
 namespace {
 
-corpus::Scene any_scene(const Category& category, std::uint64_t seed, int size, int triangles) {
-  SceneLimits limits;
-  limits.max_size = size;
-  limits.max_triangles = triangles;
-  limits.samples = (seed & 1) != 0;
-  limits.grid = (seed & 2) != 0;
-  limits.conservative = seed % 3 == 2;
-  return random_scene(category, seed, limits);
-}
-
 // All blocks of a stream, in the order in which they came.
 struct Stream {
   std::vector<CoverageBlock> blocks;
@@ -112,9 +102,9 @@ void check_stream(const corpus::Scene& scene, const std::string& what) {
 TEST(Streaming, EqualsTheCountsInEveryCategory) {
   for (const Category& category : categories()) {
     for (std::uint64_t seed = 0; seed < 60; ++seed)
-      check_stream(any_scene(category, seed, 16, 4), std::string(category.name) + ", seed " + std::to_string(seed));
+      check_stream(mixed_scene(category, seed, 16, 4), std::string(category.name) + ", seed " + std::to_string(seed));
     for (std::uint64_t seed = 0; seed < 6; ++seed)
-      check_stream(any_scene(category, seed, 200, 8), std::string(category.name) + ", seed " + std::to_string(seed));
+      check_stream(mixed_scene(category, seed, 200, 8), std::string(category.name) + ", seed " + std::to_string(seed));
   }
 }
 
@@ -166,7 +156,7 @@ void expect_nothing_changes(const Options& options) {
   };
   for (const Category& category : categories()) {
     for (std::uint64_t seed = 0; seed < 12; ++seed) {
-      const corpus::Scene scene = any_scene(category, seed, 200, 6);
+      const corpus::Scene scene = mixed_scene(category, seed, 200, 6);
       const Comparison result = compare(scene, reference, with_executor);
       ASSERT_EQ(result.differences, 0u) << category.name << ", seed " << seed << '\n' << corpus::write_scene(scene);
     }
@@ -209,7 +199,7 @@ TEST(CullingBoxes, SkipDrawsAndChangeNothing) {
   };
   for (const Category& category : categories()) {
     for (std::uint64_t seed = 0; seed < 120; ++seed) {
-      corpus::Scene scene = any_scene(category, seed, seed % 6 == 0 ? 150 : 16, 6);
+      corpus::Scene scene = mixed_scene(category, seed, seed % 6 == 0 ? 150 : 16, 6);
       for (corpus::SceneDraw& draw : scene.draws) draw.culling_box = own_corners(draw);
       // Most often an occluder before the draws; else everything in front, or clipped.
       if (seed % 4 != 0 && !scene.draws.empty()) {

@@ -61,7 +61,7 @@ PathScene bands_case(std::uint64_t number) {
 }
 
 // A box around the vertices of a draw (M6), if they all lie in front of the eye.
-void add_culling_box(corpus::SceneDraw& draw) {
+void add_culling_box(corpus::SceneDraw& draw, Random& random) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   float low[3] = {kInfinity, kInfinity, kInfinity}, high[3] = {-kInfinity, -kInfinity, -kInfinity};
   for (const corpus::SceneVertex& v : draw.vertices) {
@@ -73,8 +73,11 @@ void add_culling_box(corpus::SceneDraw& draw) {
     }
   }
   std::array<Vertex, 8>& box = draw.culling_box.emplace();
-  for (std::size_t k = 0; k < 8; ++k)
-    box[k] = {(k & 1) != 0 ? high[0] : low[0], (k & 2) != 0 ? high[1] : low[1], (k & 4) != 0 ? high[2] : low[2], 1};
+  for (std::size_t k = 0; k < 8; ++k) {
+    const float w = std::ldexp(1.0f, random.between(-2, 4));
+    box[k] = {((k & 1) != 0 ? high[0] : low[0]) * w, ((k & 2) != 0 ? high[1] : low[1]) * w,
+              ((k & 4) != 0 ? high[2] : low[2]) * w, w};
+  }
 }
 
 // State that all frames of the two kinds below may have.
@@ -89,7 +92,7 @@ void add_state(corpus::Scene& scene, Random& random) {
     draw.cull = static_cast<Cull>(random.below(3));
     draw.depth_mode = static_cast<DepthMode>(random.below(3));
     draw.depth_write = !random.one_in(4);
-    if (random.one_in(3)) add_culling_box(draw);
+    if (random.one_in(3)) add_culling_box(draw, random);
     if (random.one_in(3)) {
       // On cells or within them, each side for itself.
       const auto side = [&](int first, int last) {
@@ -121,6 +124,7 @@ PathScene crowd_case(std::uint64_t number) {
   PathScene made;
   corpus::Scene& scene = made.scene;
   scene.width = random.between(40, 200), scene.height = random.between(40, 200);
+  if (random.one_in(32)) scene.width = 13 * 64, scene.height = 5 * 64;  // one tile more than a cache line has bytes
   scene.draws.resize(1 + random.below(2));
   const int reach = 16 * random.between(1, 40), depths = random.one_in(2) ? 3 : 4096;
   const bool flat = random.one_in(2);

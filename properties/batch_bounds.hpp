@@ -228,7 +228,7 @@ class BatchBounds {
     const int threads = random_.between(2, 3), bands = (height + fast::kTileSize - 1) >> fast::kTileLog2;
     Statistics sum;
     for (int thread = 0; thread < threads; ++thread) {
-      const fast::BandSet owned(thread, threads, bands);
+      const fast::BandSet owned(thread, threads, 0, bands, bands);
       fast::Batch share;
       std::fill_n(reinterpret_cast<unsigned char*>(&share), sizeof share, static_cast<unsigned char>(0x7E));
       fast::kernels().set_up(job_, owned, 0, count, share, sum);

@@ -137,8 +137,7 @@ class Rasterizer {
       // The corners of the box: all its cells, if it is at most two cells wide and high.
       const int x[2] = {batch.first_x[lane], batch.last_x[lane]}, y[2] = {batch.first_y[lane], batch.last_y[lane]};
       for (std::size_t i = 0; i < 4; ++i) {
-        const std::size_t offset =
-            std::size_t{canvas_.column[x[i & 1] >> kCellLog2]} + canvas_.row[y[i >> 1] >> kCellLog2];
+        const std::size_t offset = canvas_.column[x[i & 1] >> kCellLog2] + canvas_.row[y[i >> 1] >> kCellLog2];
         hwy::Prefetch(canvas_.depth + offset);
         if (kWinner) hwy::Prefetch(canvas_.winner + offset);
       }

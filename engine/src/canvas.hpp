@@ -41,6 +41,8 @@ constexpr int kTileSize = 1 << kTileLog2;
 // by cell, in a cell row by row. Depth is kept so that smaller wins: negated for DepthTest::greater; beyond the target
 // it is -inf, which nothing beats. The winner is the ordinal of the triangle that is seen: its position, counted over
 // all draws.
+//
+// Depth, winner and count may hold but some bands at a time: then `row` has offsets, modulo 2^32, from their beginning.
 struct Canvas {
   float* depth = nullptr;           // null if neither depth nor visibility is wanted; and then the next three are, too
   float* block_far = nullptr;       // no depth in the block is larger
@@ -78,7 +80,7 @@ struct Canvas {
   }
   // Of the sample (x, y).
   std::size_t offset_of(int x, int y) const {
-    return std::size_t{column[x >> kCellLog2]} + row[y >> kCellLog2] + static_cast<std::size_t>((y & 3) * 4 + (x & 3));
+    return column[x >> kCellLog2] + row[y >> kCellLog2] + static_cast<std::uint32_t>((y & 3) * 4 + (x & 3));
   }
 };
 
@@ -142,18 +144,20 @@ struct ShadeJob {
   std::size_t sample_number;      // within a pixel
 };
 
-// The bands that one thread draws: of runs of neighbours, every `sets`-th. Long runs are cut by few triangles, many are
-// shared out evenly.
+// The bands that one thread draws of those at hand, which begin at `begin` and end before `end`: of runs of neighbours,
+// every `sets`-th. Long runs are cut by few triangles, many are shared out evenly.
 struct BandSet {
   std::uint64_t owned[kMaxTargetSize / kTileSize / 64 + 1] = {};  // the last is for rows beyond
   bool all = true;
-  int number = 0;  // of the thread
+  int thread = 0;
+  bool first = true;  // of all sets: it counts triangles where bands do not tell which set shall
 
   BandSet() = default;  // all
-  BandSet(int set, int sets, int bands) : all(sets == 1), number(set) {
-    const int run = std::max(1, bands / (4 * sets));
-    for (int band = 0; band < kMaxTargetSize / kTileSize; ++band) {
-      if (band / run % sets == set) owned[band >> 6] |= std::uint64_t{1} << (band & 63);
+  BandSet(int set, int sets, int begin, int end, int bands)
+      : all(sets == 1 && end - begin == bands), thread(set), first(set == 0 && begin == 0) {
+    const int run = std::max(1, (end - begin) / (4 * sets));
+    for (int band = begin; band < end; ++band) {
+      if ((band - begin) / run % sets == set) owned[band >> 6] |= std::uint64_t{1} << (band & 63);
     }
   }
   bool owns(int band) const { return all || (owned[band >> 6] >> (band & 63) & 1) != 0; }

@@ -25,7 +25,7 @@ class FragmentWriter {
  public:
   FragmentWriter(const DrawJob& job, const Canvas& canvas, const BandSet& bands, Statistics& statistics)
       : job_(job), draw_(*job.draw), canvas_(canvas), statistics_(statistics) {
-    if (canvas.masks != nullptr) marked_ = canvas.marked + static_cast<std::size_t>(bands.number) * canvas.blocks();
+    if (canvas.masks != nullptr) marked_ = canvas.marked + static_cast<std::size_t>(bands.thread) * canvas.blocks();
 
     // Else what lies beyond the target is drawn where nobody looks.
     if (draw_.scissor || canvas.masks != nullptr) {

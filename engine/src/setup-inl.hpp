@@ -222,10 +222,10 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const BandSet& bands, const Ba
     const auto first_y = hn::Load(di, batch.first_y + lane), last_y = hn::Load(di, batch.last_y + lane);
     const auto empty = hn::Or(hn::Lt(last_x, first_x), hn::Lt(last_y, first_y));
     const std::uint32_t group = (all >> lane) & ((1u << kLanes) - 1);
-    std::uint32_t here = ~Bits(di, empty) & group, counted = bands.number == 0 ? group : 0;
+    std::uint32_t here = ~Bits(di, empty) & group, counted = bands.first ? group : 0;
     if (by_band) {
       const OwnedLanes owned(bands, batch, lane, kLanes);
-      counted = (bands.number == 0 ? group & ~here : 0) | (here & owned.first);
+      counted = (bands.first ? group & ~here : 0) | (here & owned.first);
       here &= owned.any;
     }
     found.counted |= counted << lane;
@@ -389,7 +389,7 @@ void SetUp(const DrawJob& job, const BandSet& bands, std::uint32_t first, std::u
   }
   batch.first = first, batch.step = 1;
   Statistics not_counted;
-  Statistics& of_grid = bands.number == 0 ? statistics : not_counted;
+  Statistics& of_grid = bands.first ? statistics : not_counted;
   batch.clipped = HWY_UNLIKELY(draw.grid.has_value()) ? Snap(*draw.grid, vertices, batch, of_grid) & all : 0;
   FoundLanes found = Build(job, bands, vertices, all, batch, statistics);
   if (HWY_UNLIKELY(!draw.attributes.empty())) {

@@ -23,6 +23,9 @@ namespace {
 // So many batches are set up and then drawn: they stay in the first caches.
 constexpr std::size_t kChunkBatches = 16;
 
+// Samples of a canvas, of 12 bytes each, that is not drawn in halves.
+constexpr std::size_t kLargestWhole = std::size_t{1} << 23;
+
 // Memory without exceptions, on cache lines; large pieces on large pages, where the system has them: triangles are
 // drawn all over the image.
 template <typename T>
@@ -75,6 +78,10 @@ class Renderer {
     greater_ = target.depth_test == DepthTest::greater;
     canvas_.tiles_x = (target.width + kTileSize - 1) >> kTileLog2;
     canvas_.tiles_y = (target.height + kTileSize - 1) >> kTileLog2;
+    // Half a canvas with all three buffers is smaller than a whole one with two.
+    const bool halves =
+        visibility_ && !target.count.empty() && target.samples == 1 && canvas_.samples() > kLargestWhole;
+    strip_ = halves ? (canvas_.tiles_y + 1) / 2 : canvas_.tiles_y;
   }
 
   Status render(Statistics& statistics) {
@@ -83,13 +90,12 @@ class Renderer {
       const SampleLocation location = sample_location(target_.samples, n);
       sample_number_ = static_cast<std::size_t>(n);
       sample_ = {location.x / 16.0, location.y / 16.0};
-      team_.run(static_cast<std::size_t>(canvas_.tiles_y), [&](std::size_t band) { clear(static_cast<int>(band)); });
       for (std::size_t draw = 0; draw < draws_.size(); ++draw) jobs_[draw] = job_of(draw);
-      team_.run(static_cast<std::size_t>(threads_), [&](std::size_t set) { draw_bands(static_cast<int>(set)); });
+      for (int begin = 0; begin < canvas_.tiles_y; begin += strip_)
+        render_strip(begin, std::min(begin + strip_, canvas_.tiles_y));
       if (n == 0) {
         for (std::size_t i = 0; i < slots(); ++i) add_triangles(statistics, statistics_[i]);
       }
-      team_.run(static_cast<std::size_t>(canvas_.tiles_y), [&](std::size_t band) { store(static_cast<int>(band)); });
     }
     for (std::size_t i = 0; i < slots(); ++i) add_rungs(statistics, statistics_[i]);
     statistics.path = kernels_.name;
@@ -98,7 +104,8 @@ class Renderer {
 
  private:
   bool allocate() {
-    const std::size_t samples = canvas_.samples(), blocks = canvas_.blocks();
+    const std::size_t blocks = canvas_.blocks();
+    const std::size_t samples = static_cast<std::size_t>(canvas_.tiles_x) * static_cast<std::size_t>(strip_) * 64 * 64;
     // A region of 8 x 8 blocks or 8 tiles may begin at the last one.
     const std::size_t beyond = 8 * static_cast<std::size_t>(canvas_.blocks_x()) + 16;
     jobs_.reset(new (std::nothrow) DrawJob[draws_.size()]);
@@ -125,12 +132,24 @@ class Renderer {
     canvas_.winner = winner_.data(), canvas_.count = count_.data();
     for (int c = 0; c < 2 * canvas_.blocks_x(); ++c)
       column_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>((c >> 1) * 64 + (c & 1) * 16);
-    for (int r = 0; r < 16 * canvas_.tiles_y; ++r)
-      row_[static_cast<std::size_t>(r)] = static_cast<std::uint32_t>((r >> 1) * canvas_.blocks_x() * 64 + (r & 1) * 32);
     canvas_.column = column_.data(), canvas_.row = row_.data();
     if (depth_) std::fill(canvas_.block_far + blocks, canvas_.block_far + blocks + beyond, 0.0f);
     if (depth_) std::fill(canvas_.tile_far + blocks / 64, canvas_.tile_far + blocks / 64 + 8, 0.0f);
     return true;
+  }
+
+  // The bands [begin, end), a thread's share at a time.
+  void render_strip(int begin, int end) {
+    for (int r = 0; r < 16 * canvas_.tiles_y; ++r) {
+      row_[static_cast<std::size_t>(r)] =
+          static_cast<std::uint32_t>(((r >> 1) - 8 * begin) * canvas_.blocks_x() * 64 + (r & 1) * 32);
+    }
+    const auto bands = static_cast<std::size_t>(end - begin);
+    team_.run(bands, [&](std::size_t band) { clear(begin + static_cast<int>(band)); });
+    team_.run(static_cast<std::size_t>(threads_), [&](std::size_t set) {
+      draw_bands(BandSet(static_cast<int>(set), threads_, begin, end, canvas_.tiles_y));
+    });
+    team_.run(bands, [&](std::size_t band) { store(begin + static_cast<int>(band)); });
   }
 
   std::size_t slots() const { return static_cast<std::size_t>(std::max(threads_, canvas_.tiles_y)); }
@@ -179,15 +198,14 @@ class Renderer {
 
   // All triangles into the bands of one set. Each thread sets up those it needs for itself: that costs less than
   // passing what is set up from one core's cache to another's.
-  void draw_bands(int set) {
-    const auto piece = static_cast<std::size_t>(set);
-    const BandSet bands(set, threads_, canvas_.tiles_y);
+  void draw_bands(const BandSet& bands) {
+    const auto piece = static_cast<std::size_t>(bands.thread);
     Statistics counted;  // its own: threads write to it all the time
     Batch* const batches = &batches_[piece * kChunkBatches];
     for (std::size_t d = 0; d < draws_.size(); ++d) {
       const auto triangles = static_cast<std::uint32_t>(draws_[d].indices.size() / 3);
       if (skips(jobs_[d], bands)) {
-        if (set != 0) continue;
+        if (!bands.first) continue;
         ++counted.skipped_draws;
         counted.triangles += triangles;
         counted.outside += triangles;
@@ -378,6 +396,7 @@ class Renderer {
   std::span<const Draw> draws_;
   const CoverageVisitor* visitor_;
   int threads_;
+  int strip_ = 0;  // so many bands are drawn before the next ones
   Team team_;
   const Kernels& kernels_ = kernels();
   bool attributes_ = false, shading_ = false, visibility_ = false, depth_ = false, counts_ = false, greater_ = false;

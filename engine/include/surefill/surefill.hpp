@@ -18,9 +18,9 @@
 //            A triangle with a NaN or an infinity is dropped and counted, and changes nothing else [B1].
 // Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
 //            only if Options asks for them, and they end with it; or it uses the caller's.
-// Memory     A call allocates what it needs and frees it: up to 12 bytes a pixel (by what is asked for) and 64 KiB a
-//            thread, however many triangles there are; on the reference path up to 8 bytes a sample. When that cannot
-//            be had, the status is out_of_memory.
+// Memory     A call allocates what it needs and frees it: by what is asked for up to 36 MiB and 8 bytes a pixel (sides
+//            rounded up to 64), and 64 KiB a thread, however many triangles there are; on the reference path up to 8
+//            bytes a sample. When that cannot be had, the status is out_of_memory.
 #ifndef SUREFILL_SUREFILL_HPP
 #define SUREFILL_SUREFILL_HPP
 

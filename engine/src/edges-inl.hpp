@@ -44,7 +44,7 @@ HWY_INLINE std::uint32_t Bits(D d, M mask) {
 #endif
 }
 
-// The three vertices of as many triangles as FloatTag has lanes.
+// A vertex of as many triangles as FloatTag has lanes; or four components of an attribute there.
 struct Corner {
   Float x, y, z, w;
 };
@@ -57,18 +57,18 @@ struct BatchVertices {
   const Vertex& of(std::size_t lane, std::size_t k) const { return vertices[indices[3 * lane + k]]; }
 };
 
-// Vertex k of lanes lane ...
-template <class D>
-HWY_INLINE Corner LoadCorner(D d, const BatchVertices& of, std::size_t lane, std::size_t k) {
+// Four floats of each lane, from where `of(lane)` points.
+template <class D, class Of>
+HWY_INLINE Corner LoadFours(D d, const Of& of) {
   Corner corner;
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (hn::MaxLanes(D()) >= 4) {
     const hn::Repartition<double, D> d64;
     const auto row = [&](std::size_t l) {
       const hn::CappedTag<float, 4> d4;
-      const auto low = hn::LoadU(d4, &of.of(lane + l, k).x);
+      const auto low = hn::LoadU(d4, of(l));
       if constexpr (hn::MaxLanes(D()) == 8) {
-        return hn::Combine(d, hn::LoadU(d4, &of.of(lane + l + 4, k).x), low);
+        return hn::Combine(d, hn::LoadU(d4, of(l + 4)), low);
       } else {
         return low;
       }
@@ -86,9 +86,15 @@ HWY_INLINE Corner LoadCorner(D d, const BatchVertices& of, std::size_t lane, std
   }
 #endif
   alignas(16) float lanes[4 * hn::MaxLanes(D())];
-  for (std::size_t l = 0; l < hn::Lanes(d); ++l) std::memcpy(lanes + 4 * l, &of.of(lane + l, k), sizeof(Vertex));
+  for (std::size_t l = 0; l < hn::Lanes(d); ++l) std::memcpy(lanes + 4 * l, of(l), 4 * sizeof(float));
   hn::LoadInterleaved4(d, lanes, corner.x, corner.y, corner.z, corner.w);
   return corner;
+}
+
+// Vertex k of lanes lane ...
+template <class D>
+HWY_INLINE Corner LoadCorner(D d, const BatchVertices& vertices, std::size_t lane, std::size_t k) {
+  return LoadFours(d, [&](std::size_t l) { return &vertices.of(lane + l, k).x; });
 }
 
 // What a triangle of which all W > 0 reaches along one axis, as in reach() but in float32: division and subtraction are
@@ -148,7 +154,36 @@ inline bool AllFinite(const Vertex& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-HWY_INLINE bool AttributesFinite(const Draw& draw, std::uint32_t triangle) {
+// Are the attributes of all vertices of a batch finite? As integers without their signs, infinity and NaN are larger
+// than all other floats.
+HWY_INLINE bool AttributesFinite(const Draw& draw, const std::uint32_t* indices) {
+  const hn::CappedTag<std::uint32_t, 4> d;
+  constexpr std::uint32_t kMagnitude = 0x7FFFFFFF, kInfinity = 0x7F800000;
+  auto largest = hn::Zero(d);
+  std::uint32_t largest_of_fewer = 0;
+  for (const AttributeArray& attribute : draw.attributes) {
+    const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
+    for (std::size_t n = 0; n < 3 * kBatch; ++n) {
+      const float* const values = &attribute.values[indices[n] * stride];
+      if (attribute.components == 4) {
+        for (std::size_t c = 0; c < 4; c += hn::Lanes(d)) {
+          const auto bits = hn::BitCast(d, hn::LoadU(hn::RebindToFloat<decltype(d)>(), values + c));
+          largest = hn::Max(largest, hn::And(bits, hn::Set(d, kMagnitude)));
+        }
+      } else {
+        for (std::uint32_t c = 0; c < attribute.components; ++c) {
+          std::uint32_t bits;
+          std::memcpy(&bits, values + c, sizeof bits);
+          largest_of_fewer = std::max(largest_of_fewer, bits & kMagnitude);
+        }
+      }
+    }
+  }
+  return hn::AllTrue(d, hn::Lt(largest, hn::Set(d, kInfinity))) && largest_of_fewer < kInfinity;
+}
+
+// The same of one triangle.
+inline bool AttributesFinite(const Draw& draw, std::uint32_t triangle) {
   for (const AttributeArray& attribute : draw.attributes) {
     const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
     for (std::size_t k = 0; k < 3; ++k) {

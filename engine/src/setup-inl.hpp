@@ -392,7 +392,7 @@ void SetUp(const DrawJob& job, const BandSet& bands, std::uint32_t first, std::u
   Statistics& of_grid = bands.first ? statistics : not_counted;
   batch.clipped = HWY_UNLIKELY(draw.grid.has_value()) ? Snap(*draw.grid, vertices, batch, of_grid) & all : 0;
   FoundLanes found = Build(job, bands, vertices, all, batch, statistics);
-  if (HWY_UNLIKELY(!draw.attributes.empty())) {
+  if (HWY_UNLIKELY(!AttributesFinite(draw, vertices.indices))) {
     for (std::uint32_t lane = 0; lane < count; ++lane) {
       if (!AttributesFinite(draw, first + lane)) found.finite &= ~(1u << lane);
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Barycentrics and attributes of what is seen: planes in double with error bounds, four components at a time; where a
-// bound cannot tell which float32 is nearest, the scalar Triangle.
+// Barycentrics and attributes of what is seen: a row of a block at a time, each pixel a lane with its own triangle, in
+// double with error bounds; where a bound cannot tell which float32 is nearest, the scalar Triangle.
 // Included once for each instruction set by kernels.cpp.
 #if defined(SUREFILL_SRC_SHADE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREFILL_SRC_SHADE_INL_HPP
@@ -12,10 +12,8 @@
 
 #include <cstring>
 
-#include "canvas.hpp"
-#include "exact_draw.hpp"
+#include "edges-inl.hpp"
 #include "hwy/cache_control.h"
-#include "hwy/highway.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
@@ -34,7 +32,7 @@ class Shader {
     }
   }
 
-  // Block by block: a triangle that is seen in one row is seen in the next, and is still set up.
+  // Block by block: a triangle that is seen in one row is seen in the next, and is still in the first cache.
   void Run(int y0, int y1) {
     for (int y = y0; y < y1; y += 8) {
       const int rows = std::min(8, y1 - y);
@@ -47,7 +45,7 @@ class Shader {
         if (IsUntouched(x, y)) {
           for (int row = y; row < y + rows; ++row) ClearRow(x, row);
         } else {
-          Block(x, y, rows);
+          for (int row = y; row < y + rows; ++row) Row(x, row);
         }
       }
     }
@@ -55,23 +53,38 @@ class Shader {
 
  private:
   static constexpr std::size_t kBarycentrics = kMaxAttributes;
-  using D = hn::CappedTag<double, 4>;
-  using F = hn::Rebind<float, D>;
+  static constexpr auto kLanes = static_cast<std::uint32_t>(hn::MaxLanes(DoubleTag()));
+  static constexpr auto kFour = static_cast<std::uint32_t>(hn::MaxLanes(hn::CappedTag<std::uint32_t, 4>()));
 
   struct Output {
     float* values;
     std::uint32_t components;
     std::size_t attribute;  // or kBarycentrics
   };
-  // Numerators of up to four components about the origin of the screen, and a bound of their error anywhere on the
-  // target. flat: c alone, the values themselves.
-  struct Planes {
-    alignas(32) double a[4], b[4], c[4], error[4];
-    Interpolation interpolation;
+  // Pixels of a row of a block where one draw is seen, each in its lane. Other lanes repeat one of them.
+  struct Pixels {
+    std::uint32_t lanes;
+    alignas(32) std::uint32_t position[kBatch];  // of the triangle in the draw
+    std::uint32_t indices[3 * kBatch];           // of its vertices
+    alignas(64) double x[kBatch], y[kBatch];     // where attributes are taken
   };
-  // A denominator in the same way.
+  // Of four components, with error bounds.
+  struct Numerators {
+    Double value[4], error[4];
+  };
+  // A denominator's inverse; its error bound; and more than the inverse of the real one, NaN where the denominator is
+  // not known to 10 bits.
   struct Denominator {
-    double a, b, c, error;
+    Double inverse, error, known;
+
+    Denominator(Double value, Double bound) {
+      const DoubleTag d;
+      inverse = hn::Div(hn::Set(d, 1.0), value);
+      error = bound;
+      known = hn::IfThenElse(hn::Gt(hn::Mul(hn::Abs(value), hn::Set(d, 0x1p-10)), bound),
+                             hn::Mul(hn::Abs(inverse), hn::Set(d, 1.002)),
+                             hn::Set(d, std::numeric_limits<double>::quiet_NaN()));
+    }
   };
 
   // The triangles of a block lie anywhere in memory: their indices are asked for two blocks ahead, their vertices one.
@@ -101,30 +114,57 @@ class Shader {
     }
   }
 
-  void Block(int x0, int y0, int rows) {
-    for (int y = y0; y < y0 + rows; ++y) {
-      if (IsEmptyRow(x0, y)) {
-        ClearRow(x0, y);
-        continue;
+  // Up to 8 pixels, those of a block's row.
+  void Row(int x0, int y) {
+    const hn::CappedTag<std::uint32_t, 4> du;
+    alignas(16) std::uint32_t winners[kBatch];
+    std::uint32_t seen = 0;
+    for (std::uint32_t l = 0; l < kBatch; l += kFour) {
+      const auto w = hn::LoadU(du, canvas_.winner + canvas_.offset_of(x0 + static_cast<int>(l), y));
+      hn::Store(w, du, winners + l);
+      seen |= Bits(du, hn::Ne(w, hn::Set(du, kNoTriangle))) << l;
+    }
+    const auto columns = static_cast<std::uint32_t>(std::min(8, target_.width - x0));
+    seen &= (1u << columns) - 1;
+    if (seen == 0) {
+      ClearRow(x0, y);
+      return;
+    }
+    first_sample_ = SampleIndex(x0, y);
+    for (std::uint32_t rest = ~seen & ((1u << columns) - 1); rest != 0; rest &= rest - 1)
+      Clear(SampleOf(static_cast<std::uint32_t>(__builtin_ctz(rest))));
+    Pixels pixels;
+    for (std::uint32_t l = 0; l < kBatch; ++l) pixels.x[l] = x0 + kCentre[l], pixels.y[l] = y + 0.5;
+    for (; seen != 0; seen &= ~pixels.lanes) {
+      const std::uint32_t some = winners[__builtin_ctz(seen)];
+      draw_ = DrawOf(some, draw_);
+      const std::uint32_t first = job_.jobs[draw_].first_ordinal,
+                          triangles = static_cast<std::uint32_t>(draw().indices.size() / 3);
+      pixels.lanes = 0;
+      for (std::uint32_t l = 0; l < kBatch; l += kFour) {
+        const auto position = hn::Sub(hn::Load(du, winners + l), hn::Set(du, first));
+        const auto here = hn::Lt(position, hn::Set(du, triangles));
+        hn::Store(hn::IfThenElse(here, position, hn::Set(du, some - first)), du, pixels.position + l);
+        pixels.lanes |= Bits(du, here) << l;
       }
-      for (int x = x0; x < std::min(x0 + 8, target_.width); ++x) {
-        const std::size_t s = SampleIndex(x, y);
-        const std::uint32_t winner = canvas_.winner[canvas_.offset_of(x, y)];
-        if (winner == kNoTriangle) {
-          Clear(s);
-          continue;
+      pixels.lanes &= seen;
+      for (std::uint32_t l = 0; l < kBatch; ++l) {
+        const std::uint32_t* const triangle = &draw().indices[std::size_t{3} * pixels.position[l]];
+        std::memcpy(pixels.indices + 3 * l, triangle, 3 * sizeof(std::uint32_t));
+      }
+      if (HWY_UNLIKELY(target_.samples > 1)) {
+        for (std::uint32_t rest = pixels.lanes; rest != 0; rest &= rest - 1) {
+          const auto l = static_cast<std::uint32_t>(__builtin_ctz(rest));
+          const SamplePosition p = PositionOf(pixels.position[l], x0 + static_cast<int>(l), y);
+          pixels.x[l] = p.x, pixels.y[l] = p.y;
         }
-        if (winner != winner_) {
-          winner_ = winner;
-          draw_ = DrawOf(winner, draw_);
-          position_ = winner - job_.jobs[draw_].first_ordinal;
-          seen_ = &seen_triangles_[winner % kSeen];
-          if (seen_->winner != winner) SetUp(winner);
-        }
-        Values(PositionOf(x, y), s);
+      }
+      for (std::uint32_t lane = 0; lane < kBatch; lane += kLanes) {
+        if ((pixels.lanes >> lane & ((1u << kLanes) - 1)) != 0) Values(pixels, lane);
       }
     }
   }
+  alignas(64) static constexpr double kCentre[8] = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5};
 
   // The draw that the triangle belongs to; `guess` is one nearby.
   std::size_t DrawOf(std::uint32_t ordinal, std::size_t guess) const {
@@ -138,14 +178,10 @@ class Shader {
                static_cast<std::size_t>(target_.samples) +
            job_.sample_number;
   }
-  bool IsUntouched(int x, int y) const { return canvas_.untouched[canvas_.tile_of(x, y)] != 0; }
-  // Nothing is seen in a row of a block.
-  bool IsEmptyRow(int x, int y) const {
-    std::uint64_t winners[4];
-    std::memcpy(winners, canvas_.winner + canvas_.offset_of(x, y), 16);
-    std::memcpy(winners + 2, canvas_.winner + canvas_.offset_of(x + 4, y), 16);
-    return (winners[0] & winners[1] & winners[2] & winners[3]) == ~std::uint64_t{0};
+  std::size_t SampleOf(std::uint32_t lane) const {
+    return first_sample_ + lane * static_cast<std::size_t>(target_.samples);
   }
+  bool IsUntouched(int x, int y) const { return canvas_.untouched[canvas_.tile_of(x, y)] != 0; }
 
   void Clear(std::size_t s) const {
     for (std::size_t k = 0; k < count_; ++k) {
@@ -165,144 +201,158 @@ class Shader {
   }
 
   const Draw& draw() const { return *job_.jobs[draw_].draw; }
-  std::size_t IndexOf(std::size_t i) const { return draw().indices[std::size_t{3} * position_ + i]; }
-  float ValueOf(const Output& out, std::size_t vertex, std::uint32_t c) const {
-    if (out.attribute == kBarycentrics) return vertex == c ? 1.0f : 0.0f;
-    const AttributeArray& in = draw().attributes[out.attribute];
-    return in.values[IndexOf(vertex) * (in.stride != 0 ? in.stride : in.components) + c];
-  }
-
-  // E_i = a x + b y + c has the error bound `unit` times (|a| x + |b| y + |c|); a numerator's coefficients add three
-  // products and two sums, its evaluation two of each: below 16 units of 2^-53 of the sum of absolute terms in all.
-  void SetUp(std::uint32_t winner) {
-    seen_->winner = winner;
-    constexpr double kUnit = 0x1p-49;
-    const Vertex* v[3];
-    for (std::size_t i = 0; i < 3; ++i) v[i] = &draw().vertices[IndexOf(i)];
-    double a[3], b[3], c[3], size[3];
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vertex &j = *v[(i + 1) % 3], &k = *v[(i + 2) % 3];
-      const double jx = j.x, jy = j.y, jw = j.w, kx = k.x, ky = k.y, kw = k.w;
-      a[i] = jy * kw - jw * ky, b[i] = jw * kx - jx * kw, c[i] = jx * ky - jy * kx;
-      size[i] = (std::fabs(a[i]) * target_.width + std::fabs(b[i]) * target_.height) + std::fabs(c[i]);
-    }
-    seen_->perspective = {(a[0] + a[1]) + a[2], (b[0] + b[1]) + b[2], (c[0] + c[1]) + c[2],
-                          kUnit * ((size[0] + size[1]) + size[2])};
-    const double ax = a[0] * v[0]->x, by = b[0] * v[0]->y, cw = c[0] * v[0]->w;
-    seen_->affine = {0, 0, (ax + by) + cw, kUnit * ((std::fabs(ax) + std::fabs(by)) + std::fabs(cw))};
-    for (std::size_t i = 0; i < 3; ++i) seen_->edge[i] = {a[i], b[i], c[i], kUnit * size[i]};
-    for (std::size_t n = 0; n < count_; ++n) {
-      const Output& out = outputs_[n];
-      Planes& planes = seen_->planes[n];
-      planes.interpolation =
-          out.attribute == kBarycentrics ? Interpolation::perspective : draw().attributes[out.attribute].interpolation;
-      alignas(32) double u[3][4] = {};
-      for (std::size_t i = 0; i < 3; ++i) {
-        for (std::uint32_t k = 0; k < out.components; ++k) u[i][k] = ValueOf(out, i, k);
-      }
-      if (planes.interpolation == Interpolation::flat) {
-        std::memcpy(planes.c, u[0], sizeof planes.c);
-        continue;
-      }
-      const D d;
-      const bool noperspective = planes.interpolation == Interpolation::noperspective;
-      for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
-        auto pa = hn::Zero(d), pb = pa, pc = pa, error = pa;
-        for (std::size_t i = 0; i < 3; ++i) {
-          auto weight = hn::Load(d, u[i] + k);
-          if (noperspective) weight = hn::Mul(weight, hn::Set(d, static_cast<double>(v[i]->w)));  // 48 bits, exact
-          pa = hn::Add(pa, hn::Mul(weight, hn::Set(d, a[i])));
-          pb = hn::Add(pb, hn::Mul(weight, hn::Set(d, b[i])));
-          pc = hn::Add(pc, hn::Mul(weight, hn::Set(d, c[i])));
-          error = hn::Add(error, hn::Mul(hn::Abs(weight), hn::Set(d, size[i])));
-        }
-        hn::Store(pa, d, planes.a + k);
-        hn::Store(pb, d, planes.b + k);
-        hn::Store(pc, d, planes.c + k);
-        hn::Store(hn::Mul(error, hn::Set(d, kUnit)), d, planes.error + k);
-      }
-    }
-  }
 
   // Where the attributes of pixel (x, y) are taken (M1).
-  SamplePosition PositionOf(int x, int y) {
+  SamplePosition PositionOf(std::uint32_t position, int x, int y) {
     const SamplePosition centre{x + 0.5, y + 0.5};
-    if (target_.samples == 1) return centre;
-    if (target_.attribute_location == AttributeLocation::centre && Exact().has_values(centre)) return centre;
+    exact_.use(draw(), position);
+    if (target_.attribute_location == AttributeLocation::centre && exact_.has_values(centre)) return centre;
     const TieShift shift = job_.jobs[draw_].shift;
     Statistics unused;
-    if (Exact().covers(centre, shift, unused)) return centre;
+    if (exact_.covers(centre, shift, unused)) return centre;
     for (int n = 0; n < target_.samples; ++n) {
       const SampleLocation location = sample_location(target_.samples, n);
       const SamplePosition p{x + location.x / 16.0, y + location.y / 16.0};
-      if (Exact().covers(p, shift, unused)) return p;
+      if (exact_.covers(p, shift, unused)) return p;
     }
     return centre;  // not reached: the triangle is seen at a sample of this pixel
   }
 
-  // Grid: do all E_i surely have D's sign at p? Then none of them counts as 0 (G2).
-  bool AllEdgesCount(SamplePosition p) const {
-    const Denominator& det = seen_->affine;
-    if (!(std::fabs(det.c) > det.error)) return false;
-    const double sign = det.c < 0 ? -1 : 1;
-    for (const Denominator& e : seen_->edge) {
-      if (!(sign * ((e.a * p.x + e.b * p.y) + e.c) > e.error)) return false;
-    }
-    return true;
+  // Grid: lanes where not all E_i surely have D's sign. Then some may count as 0 (G2).
+  static HWY_NOINLINE std::uint32_t SomeEdgeMayNotCount(const Double (&w)[3], const Edges& edges) {
+    const DoubleTag d;
+    Double det, det_error;
+    Determinant(w, edges, det, det_error);
+    const auto sign = hn::And(det, hn::Set(d, -0.0));
+    auto all = hn::Gt(hn::Abs(det), det_error);
+    for (std::size_t i = 0; i < 3; ++i) all = hn::And(all, hn::Gt(hn::Xor(edges.e[i], sign), edges.error[i]));
+    return ~Bits(d, all);
   }
 
-  HWY_INLINE void Values(SamplePosition p, std::size_t s) {
-    const D d;
-    const F df;
-    const bool exactly = draw().grid && !AllEdgesCount(p);
+  // The values of lanes lane ... : sums of u_i E_i over the sum of the E_i, or of u_i W_i E_i over D, with the E_i
+  // taken at the pixel itself. An edge's error is at least 2^-50 times its value: twice that error bounds a product
+  // with it, and sums of three.
+  HWY_INLINE void Values(const Pixels& pixels, std::uint32_t lane) {
+    const DoubleTag d;
+    const FloatTag df;
+    const BatchVertices vertices{draw().vertices.data(), pixels.indices};
+    Double x[3], y[3], w[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Corner v = LoadCorner(df, vertices, lane, k);
+      x[k] = hn::PromoteTo(d, v.x), y[k] = hn::PromoteTo(d, v.y), w[k] = hn::PromoteTo(d, v.w);
+    }
+    Edges edges;
+    HomogeneousEdges(x, y, w, hn::Load(d, pixels.x + lane), hn::Load(d, pixels.y + lane), edges);
+    for (std::size_t i = 0; i < 3; ++i) edges.error[i] = hn::Add(edges.error[i], edges.error[i]);
+    const Denominator perspective(hn::Add(hn::Add(edges.e[0], edges.e[1]), edges.e[2]),
+                                  hn::Add(hn::Add(edges.error[0], edges.error[1]), edges.error[2]));
+    const std::uint32_t lanes = pixels.lanes >> lane & ((1u << kLanes) - 1);
+    const std::uint32_t exactly = HWY_UNLIKELY(draw().grid.has_value()) ? SomeEdgeMayNotCount(w, edges) : 0;
     for (std::size_t n = 0; n < count_; ++n) {
       const Output& out = outputs_[n];
-      const Planes& planes = seen_->planes[n];
-      float* const values = out.values + s * out.components;
-      if (planes.interpolation == Interpolation::flat) {
-        for (std::uint32_t c = 0; c < out.components; ++c) values[c] = static_cast<float>(planes.c[c]) + 0.0f;
+      if (out.attribute == kBarycentrics) {
+        const Numerators sums{{edges.e[0], edges.e[1], edges.e[2], edges.e[2]},
+                              {edges.error[0], edges.error[1], edges.error[2], edges.error[2]}};
+        Quotients(pixels, lane, lanes, exactly, out, sums, perspective);
         continue;
       }
-      if (HWY_UNLIKELY(exactly)) {
-        for (std::uint32_t c = 0; c < out.components; ++c) {
-          const float u[3] = {ValueOf(out, 0, c), ValueOf(out, 1, c), ValueOf(out, 2, c)};
-          values[c] = Exact().attribute(p, u, planes.interpolation, statistics_);
+      const AttributeArray& in = draw().attributes[out.attribute];
+      const auto values_of = [&](std::size_t l, std::size_t k) { return ValuesOf(in, pixels, lane + l, k); };
+      if (in.interpolation == Interpolation::flat) {
+        for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+          const auto l = static_cast<std::uint32_t>(__builtin_ctz(rest));
+          float* const to = out.values + SampleOf(lane + l) * out.components;
+          for (std::uint32_t c = 0; c < out.components; ++c) to[c] = values_of(l, 0)[c] + 0.0f;
         }
         continue;
       }
-      const Denominator& m = planes.interpolation == Interpolation::perspective ? seen_->perspective : seen_->affine;
-      const double below = (m.a * p.x + m.b * p.y) + m.c, inverse = 1 / below;
-      // Where the denominator is known to 10 bits, 1.002 / |below| is more than the inverse of the real one. Else no
-      // number is known: the comparison below fails for NaN.
-      const double known =
-          std::fabs(below) * 0x1p-10 > m.error ? std::fabs(inverse) * 1.002 : std::numeric_limits<double>::quiet_NaN();
-      alignas(16) float nearest[4];
-      std::uint32_t unknown = 0;
-      for (std::size_t k = 0; k < 4; k += hn::Lanes(d)) {
-        const auto above = hn::Add(hn::Add(hn::Mul(hn::Load(d, planes.a + k), hn::Set(d, p.x)),
-                                           hn::Mul(hn::Load(d, planes.b + k), hn::Set(d, p.y))),
-                                   hn::Load(d, planes.c + k));
-        const auto q = hn::Mul(above, hn::Set(d, inverse)), size = hn::Abs(q);
-        const auto numerators = hn::Add(hn::Load(d, planes.error + k), hn::Mul(size, hn::Set(d, m.error)));
-        const auto error = hn::Add(hn::Mul(numerators, hn::Set(d, known)), hn::Mul(size, hn::Set(d, 0x1p-51)));
-        const auto most = hn::Set(d, kLargestFloat), least = hn::Set(d, -kLargestFloat);
-        const auto low = hn::DemoteTo(df, hn::Max(hn::Min(hn::Sub(q, error), most), least));
-        const auto high = hn::DemoteTo(df, hn::Max(hn::Min(hn::Add(q, error), most), least));
-        // In an interval with a NaN both ends may have become the same limit.
-        const auto told = hn::And(hn::Eq(low, high), hn::Lt(hn::Abs(low), hn::Set(df, kLargestFloatAsFloat)));
-        hn::Store(hn::Add(low, hn::Zero(df)), df, nearest + k);
-        unknown |= (~Bits(df, told) & ((1u << hn::Lanes(df)) - 1)) << k;
+      const bool noperspective = in.interpolation == Interpolation::noperspective;
+      Numerators sums;
+      for (std::size_t c = 0; c < 4; ++c) sums.value[c] = sums.error[c] = hn::Zero(d);
+      for (std::size_t k = 0; k < 3; ++k) {
+        Corner u;
+        if (out.components == 4) {
+          u = LoadFours(df, [&](std::size_t l) { return values_of(l, k); });
+        } else {
+          alignas(16) float fours[kLanes][4] = {};
+          for (std::size_t l = 0; l < kLanes; ++l) CopyComponents(values_of(l, k), out.components, fours[l]);
+          u = LoadFours(df, [&](std::size_t l) { return fours[l]; });
+        }
+        const Float components[4] = {u.x, u.y, u.z, u.w};
+        for (std::size_t c = 0; c < 4; ++c) {
+          auto weight = hn::PromoteTo(d, components[c]);
+          if (noperspective) weight = hn::Mul(weight, w[k]);  // 48 bits, exact
+          sums.value[c] = hn::Add(sums.value[c], hn::Mul(weight, edges.e[k]));
+          sums.error[c] = hn::Add(sums.error[c], hn::Mul(hn::Abs(weight), edges.error[k]));
+        }
       }
-      unknown &= (1u << out.components) - 1;
-      statistics_.values_by_filter += out.components - static_cast<std::uint32_t>(__builtin_popcount(unknown));
-      CopyComponents(nearest, out.components, values);
-      for (; HWY_UNLIKELY(unknown != 0); unknown &= unknown - 1) {
-        const auto c = static_cast<std::uint32_t>(__builtin_ctz(unknown));
-        const float u[3] = {ValueOf(out, 0, c), ValueOf(out, 1, c), ValueOf(out, 2, c)};
-        values[c] = Exact().attribute(p, u, planes.interpolation, statistics_);
+      Quotients(pixels, lane, lanes, exactly, out, sums, noperspective ? OverDeterminant(w, edges) : perspective);
+    }
+  }
+  static HWY_NOINLINE Denominator OverDeterminant(const Double (&w)[3], const Edges& edges) {
+    Double det, error;
+    Determinant(w, edges, det, error);
+    return {det, error};
+  }
+  static const float* ValuesOf(const AttributeArray& in, const Pixels& pixels, std::size_t lane, std::size_t k) {
+    return in.values.data() + pixels.indices[3 * lane + k] * (in.stride != 0 ? in.stride : in.components);
+  }
+
+  // Numerators with error bounds over a denominator, rounded to float32: I4.
+  HWY_INLINE void Quotients(const Pixels& pixels, std::uint32_t lane, std::uint32_t lanes, std::uint32_t exactly,
+                            const Output& out, const Numerators& above, const Denominator& below) {
+    const DoubleTag d;
+    const FloatTag df;
+    const auto most = hn::Set(d, kLargestFloat), least = hn::Set(d, -kLargestFloat);
+    Float nearest[4];
+    std::uint32_t unknown[4], any = 0;
+    for (std::uint32_t c = 0; c < 4; ++c) {
+      const auto q = hn::Mul(above.value[c], below.inverse), size = hn::Abs(q);
+      const auto numerators = hn::Add(above.error[c], hn::Mul(size, below.error));
+      const auto bound = hn::Add(hn::Mul(numerators, below.known), hn::Mul(size, hn::Set(d, 0x1p-51)));
+      const auto low = hn::DemoteTo(df, hn::Max(hn::Min(hn::Sub(q, bound), most), least));
+      const auto high = hn::DemoteTo(df, hn::Max(hn::Min(hn::Add(q, bound), most), least));
+      // In an interval with a NaN both ends may have become the same limit.
+      const auto told = hn::And(hn::Eq(low, high), hn::Lt(hn::Abs(low), hn::Set(df, kLargestFloatAsFloat)));
+      nearest[c] = hn::Add(low, hn::Zero(df));
+      unknown[c] = c < out.components ? (~Bits(df, told) | exactly) & lanes : 0;
+      statistics_.values_by_filter +=
+          c < out.components ? static_cast<std::uint32_t>(__builtin_popcount(lanes & ~unknown[c])) : 0;
+      any |= unknown[c];
+    }
+    float* const row = out.values + SampleOf(lane) * out.components;
+    if (HWY_LIKELY(out.components == 4 && lanes == (1u << kLanes) - 1 && target_.samples == 1)) {
+      hn::StoreInterleaved4(nearest[0], nearest[1], nearest[2], nearest[3], df, row);
+      if (HWY_UNLIKELY(any != 0)) ExactValues(pixels, lane, unknown, out);
+      return;
+    }
+    alignas(64) float fours[4 * kLanes];
+    hn::StoreInterleaved4(nearest[0], nearest[1], nearest[2], nearest[3], df, fours);
+    for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
+      const auto l = static_cast<std::uint32_t>(__builtin_ctz(rest));
+      CopyComponents(fours + 4 * l, out.components, out.values + SampleOf(lane + l) * out.components);
+    }
+    if (HWY_UNLIKELY(any != 0)) ExactValues(pixels, lane, unknown, out);
+  }
+
+  // Those that a bound could not tell.
+  HWY_NOINLINE void ExactValues(const Pixels& pixels, std::uint32_t lane, const std::uint32_t (&unknown)[4],
+                                const Output& out) {
+    const bool barycentrics = out.attribute == kBarycentrics;
+    const AttributeArray* const in = barycentrics ? nullptr : &draw().attributes[out.attribute];
+    for (std::uint32_t c = 0; c < out.components; ++c) {
+      for (std::uint32_t rest = unknown[c]; rest != 0; rest &= rest - 1) {
+        const std::uint32_t l = lane + static_cast<std::uint32_t>(__builtin_ctz(rest));
+        float u[3];
+        for (std::uint32_t k = 0; k < 3; ++k)
+          u[k] = barycentrics ? (k == c ? 1.0f : 0.0f) : ValuesOf(*in, pixels, l, k)[c];
+        exact_.use(draw(), pixels.position[l]);
+        out.values[SampleOf(l) * out.components + c] = exact_.attribute(
+            {pixels.x[l], pixels.y[l]}, u, barycentrics ? Interpolation::perspective : in->interpolation, statistics_);
       }
     }
   }
+
   // Sizes that the compiler knows: a call of memcpy would cost as much as the rest.
   static HWY_INLINE void CopyComponents(const float* from, std::uint32_t components, float* to) {
     if (components == 4) {
@@ -316,30 +366,13 @@ class Shader {
   }
   static constexpr float kLargestFloatAsFloat = std::numeric_limits<float>::max();
 
-  // The triangle at hand.
-  ExactDraw& Exact() {
-    exact_.use(draw(), position_);
-    return exact_;
-  }
-
   const ShadeJob& job_;
   const Target& target_;
   const Canvas canvas_;
   Statistics& statistics_;
   Output outputs_[kMaxAttributes + 1];
   std::size_t count_ = 0;
-
-  // Triangles that were set up lately, by the low bits of their ordinals; and the one at hand.
-  struct Seen {
-    std::uint32_t winner = kNoTriangle;
-    Denominator perspective{}, affine{};  // the sum of the E_i, and D
-    Denominator edge[3]{};                // E_i
-    Planes planes[kMaxAttributes + 1];
-  };
-  static constexpr std::uint32_t kSeen = 32;
-  Seen seen_triangles_[kSeen];
-  Seen* seen_ = nullptr;
-  std::uint32_t winner_ = kNoTriangle, position_ = 0;
+  std::size_t first_sample_ = 0;  // of the row at hand
   std::size_t draw_ = 0;
   ExactDraw exact_;
 };

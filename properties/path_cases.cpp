@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "properties/path_cases.hpp"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <span>
 #include <type_traits>
@@ -47,6 +50,7 @@ PathScene random_case(std::uint64_t number, int size, int triangles) {
   made.outputs = random_outputs(made.scene, random);
   made.in_place = random.one_in(2), made.executor = random.one_in(4), made.streams = random.one_in(3);
   if (random.one_in(8)) share_identifiers(made.scene, random);
+  made.alone = made.threads > 1 && random.one_in(4);
   return made;
 }
 
@@ -314,12 +318,88 @@ PathScene halfway_case(std::uint64_t number) {
   return made;
 }
 
+// Draws whose culling boxes are made of their own vertices, wherever these lie: beside the borders of the image or of a
+// scissor, partly behind the eye, where depth is clipped, moved by a coarse grid; or in part behind what other draws
+// have covered, by next to nothing. And boxes that are to be ignored, for a number that is none.
+PathScene boxed_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  const int most = random.one_in(3) ? 200 : 24;
+  scene.width = random.between(4, most), scene.height = random.between(4, most);
+  const bool hides = random.one_in(2), coarse = random.one_in(4);
+  const bool conservative = !hides && !coarse && random.one_in(4);
+  if (!conservative && random.one_in(3)) scene.samples = 1 << random.between(1, 4);
+  if (random.one_in(3)) scene.depth_test = DepthTest::greater;
+  const float base = static_cast<float>(random.below(4)) / 2;
+  scene.draws.resize(2 + random.below(5));
+  for (corpus::SceneDraw& draw : scene.draws) {
+    draw.fill_rule = static_cast<FillRule>(random.below(8));
+    if (coarse)
+      draw.grid = Grid{random.between(0, 1), random.between(0, 15), random.between(0, 15),
+                       static_cast<GridRounding>(random.below(3))};
+    if (conservative) draw.conservative = random.one_in(2) ? Conservative::over : Conservative::inner;
+    if (!conservative) draw.depth_mode = static_cast<DepthMode>(random.below(3));
+    Scissor region{0, 0, scene.width, scene.height};
+    if (random.one_in(3)) {
+      region.x0 = random.between(0, scene.width - 1), region.y0 = random.between(0, scene.height - 1);
+      region.x1 = random.between(region.x0 + 1, scene.width), region.y1 = random.between(region.y0 + 1, scene.height);
+      draw.scissor = region;
+    }
+    const auto beside = [&](int border) {
+      return static_cast<float>(border) + (random.one_in(2) ? 0 : static_cast<float>(random.between(-24, 24)) / 16);
+    };
+    // The first and the last coordinate of a rectangle: across the image, or within a little of a border.
+    const auto sides = [&](int begin, int end, float(&to)[2]) {
+      to[0] = static_cast<float>(random.between(-8, end)), to[1] = to[0] + static_cast<float>(random.between(1, end));
+      if (hides && random.one_in(2)) to[0] = static_cast<float>(static_cast<int>(to[0]) & ~7), to[1] = beside(end);
+      if (!hides && random.one_in(2)) to[1] = beside(begin), to[0] = to[1] - 3;
+      if (!hides && random.one_in(2)) to[0] = beside(end), to[1] = to[0] + 3;
+    };
+    float x[2], y[2];
+    sides(region.x0, region.x1, x), sides(region.y0, region.y1, y);
+    if (hides && &draw == &scene.draws[0]) x[0] = y[0] = -8, x[1] = y[1] = 208;  // all that others may lie behind
+    // Depths at the ends of 0 .. 1, or near to each other.
+    const float tiny = std::ldexp(static_cast<float>(random.between(-1, 1)), random.one_in(2) ? -24 : -140);
+    const float z = hides ? base + std::ldexp(static_cast<float>(random.between(-2, 2)), random.one_in(4) ? 0 : -23)
+                          : static_cast<float>(random.below(2)) + tiny;
+    const bool turned = random.one_in(4), behind = random.one_in(6);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const float w = behind && random.one_in(2) ? static_cast<float>(random.between(-1, 0))
+                                                 : std::ldexp(1.0f, random.between(-1, 1));
+      const float depth = turned && k == 3 ? z + std::ldexp(1.0f, random.between(-24, -2)) : z, by = w == 0 ? 1 : w;
+      draw.vertices.push_back({x[k & 1] * by, y[k >> 1] * by, depth * by, w, {}});
+    }
+    draw.triangles = {{{0, 1, 2}, {}}, {{2, 1, 3}, {}}};
+    if (random.one_in(4)) draw.triangles.pop_back(), draw.vertices.pop_back();
+    if (random.one_in(4)) continue;
+    std::array<Vertex, 8>& box = draw.culling_box.emplace();
+    for (std::size_t k = 0; k < 8; ++k) {
+      const corpus::SceneVertex& v = draw.vertices[k % draw.vertices.size()];
+      box[k] = {v.x, v.y, v.z, v.w};
+    }
+    if (!random.one_in(6)) continue;
+    // Somewhere else, and not a box.
+    for (Vertex& v : box) v = {-100, -100, 4, 1};
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNone[] = {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
+    Vertex& v = box[random.below(8)];
+    float* const numbers[] = {&v.x, &v.y, &v.z, &v.w};
+    *numbers[random.below(4)] = kNone[random.below(3)];
+  }
+  made.outputs = random_outputs(scene, random);
+  if (hides) made.outputs.count = false, made.outputs.depth = true;
+  made.threads = random_threads(random);
+  return made;
+}
+
 constexpr PathCases kCases[] = {
     {"small", "random scenes of a few cells", 6000, small_case},
     {"tiles", "random scenes of a few tiles", 400, tiles_case},
     {"bands", "random scenes of several bands for each thread", 60, bands_case},
     {"crowd", "more triangles than are set up at a time", 150, crowd_case},
     {"halfway", "values halfway between two float32, but for what a double cannot hold", 3000, halfway_case},
+    {"boxed", "draws in culling boxes, beside borders, behind the eye or behind other draws", 1000, boxed_case},
     {"clipped", "slivers that Grid clips and folds", 300, clipped_case},
     {"snapped", "edges on samples of a fine grid, and a step beside them", 1000, snapped_case},
     {"layers", "planes over whole tiles, as near to each other as hierarchical z can tell", 150, layers_case},
@@ -341,6 +421,27 @@ std::string broken_statistics(const Statistics& s, const Statistics& reference, 
     return "rasterized";
   return "";
 }
+
+// While it lives no thread starts: a stack would be larger than all memory that has addresses.
+class NoThreads {
+ public:
+#if defined(__GLIBC__)
+  NoThreads() {
+    pthread_getattr_default_np(&before_);
+    pthread_attr_t none = before_;
+    pthread_attr_setstacksize(&none, std::size_t{1} << 60);
+    pthread_setattr_default_np(&none);
+  }
+  ~NoThreads() {
+    pthread_setattr_default_np(&before_);
+  }
+  NoThreads(const NoThreads&) = delete;
+  NoThreads& operator=(const NoThreads&) = delete;
+
+ private:
+  pthread_attr_t before_;
+#endif
+};
 
 bool same(const Statistics& a, const Statistics& b) {
   return a.triangles == b.triangles && a.dropped == b.dropped && a.degenerate == b.degenerate && a.culled == b.culled &&
@@ -374,12 +475,15 @@ PathResult draw_path(const PathScene& of, const Options& with) {
     target.initial_depth = target.depth;
   }
   Options options = with;
+  PathResult result;
   if (of.executor) {
-    options.executor.run = [](void*, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
+    options.executor.run = [](void* handed_out, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
+      *static_cast<std::size_t*>(handed_out) += items;
       while (items-- > 0) task(argument, items);
     };
+    options.executor.context = &result.handed_out;
   }
-  PathResult result;
+  const std::unique_ptr<NoThreads> alone(of.alone ? new NoThreads : nullptr);
   result.hash = static_cast<std::uint64_t>(render(target, frame.draws(), &result.statistics, options));
   for_each([&](auto& value) {
     result.hash = (result.hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15u;
@@ -426,6 +530,7 @@ PathResult draw_path(const PathScene& of, const Options& with) {
 std::string broken_path(const PathScene& of, const PathResult& reference) {
   const PathResult fast = draw_path(of, {.threads = of.threads});
   if (fast.hash != reference.hash) return "the image";
+  if (of.executor && of.scene.height > 64 && fast.handed_out == 0) return "the executor is not asked";
   if (fast.stream != reference.stream || !fast.counts_agree) return "streamed coverage";
   if (std::string broken = broken_statistics(fast.statistics, reference.statistics, of.scene); !broken.empty())
     return "statistics: " + broken;

@@ -20,6 +20,7 @@ struct PathScene {
   int threads = 1;
   bool streams = false;   // its coverage is streamed, too
   bool executor = false;  // the caller's, of one thread
+  bool alone = false;     // no thread can be started
   bool in_place = false;  // the depth buffer holds the initial depth, where there are both
 };
 
@@ -35,6 +36,7 @@ std::span<const PathCases> all_path_cases();
 struct PathResult {
   std::uint64_t hash = 0, stream = 0;  // of the image, and of coverage as it is streamed
   bool counts_agree = true;            // of the image and of the stream: of fragments, and of triangles
+  std::size_t handed_out = 0;          // items, to the caller's executor
   Statistics statistics;
 };
 PathResult draw_path(const PathScene& of, const Options& options);

@@ -245,6 +245,14 @@ class BatchBounds {
         }
       }
     }
+    const int sets = random_.between(1, 3), begin = random_.between(0, bands - 1),
+              end = random_.between(begin + 1, bands);
+    for (int band = 0; band <= bands; ++band) {
+      int owners = 0;
+      for (int set = 0; set < sets; ++set) owners += fast::BandSet(set, sets, begin, end, bands).owns(band) ? 1 : 0;
+      expect(band >= begin && band < end ? owners == 1 : owners == 0 || end - begin == bands,
+             "a band at hand belongs to one set, and no other does");
+    }
     expect(sum.triangles == alone.triangles && sum.dropped == alone.dropped && sum.degenerate == alone.degenerate &&
                sum.culled == alone.culled && sum.outside == alone.outside && sum.rasterized == alone.rasterized &&
                sum.small == alone.small && sum.medium == alone.medium && sum.large == alone.large &&

@@ -356,6 +356,7 @@ class BatchBounds {
   void what_is_set_up(std::uint32_t lane, const Vertex* const (&v)[3]) {
     const bool small = has(batch_.small, lane), medium = has(batch_.medium, lane);
     expect(small == (x1_ - (x0_ & ~3) < 16 && y1_ - (y0_ & ~3) < 16), "`small` is 4 x 4 cells");
+    expect(has(batch_.tiny, lane) == (x1_ - x0_ < 2 && y1_ - y0_ < 2), "`tiny` is 2 x 2 samples");
     expect(medium == (x1_ - (x0_ & ~7) < 64 && y1_ - (y0_ & ~7) < 64), "`medium` is 8 x 8 blocks");
     expect(has(batch_.negative, lane) == (sign_ < 0), "`negative` is D < 0");
     if (small || medium) edges(lane, small ? 16 : 64);

@@ -4,6 +4,7 @@
 reduced scene of at most two triangles on which broken engine and oracle differ. A check that cannot fail is a defect.
 
 usage: properties/mutants.py [NAME ...]     (default: all of MUTANTS)
+       properties/mutants.py --check        does each line to be broken stand once where it is looked for?
 Exit 0 if every mutant is caught, 1 if one is not, 2 if one cannot be built. Works in build/mutants.
 """
 import json
@@ -44,16 +45,16 @@ MUTANTS = [
     ("box-last-row", "engine/src/bounds.hpp",
      "std::clamp(highest + 1,",
      "std::clamp(highest,"),
-    ("int32-bound-zero", "engine/src/setup-inl.hpp",
+    ("int32-bound-zero", "engine/src/edges-inl.hpp",
      "kSmallBound = 16, kTileBound = 64;",
      "kSmallBound = 0, kTileBound = 0;"),
     ("depth-bound-zero", "engine/src/setup-inl.hpp",
      "hn::Store(total, dd, batch.z_error + lane);",
      "hn::Store(hn::Zero(dd), dd, batch.z_error + lane);"),
     ("attribute-at-corner", "engine/src/shade-inl.hpp",
-     "const SamplePosition centre{x + 0.5, y + 0.5};",
-     "const SamplePosition centre{x + 0.0, y + 0.0};"),
-    ("index-order", "engine/src/block-inl.hpp",
+     "pixels.y[l] = y + 0.5;",
+     "pixels.y[l] = y;"),
+    ("index-order", "engine/src/fragment-inl.hpp",
      "draw_.identifiers[position] < draw_.identifiers[other] : position < other;",
      "draw_.identifiers[position] > draw_.identifiers[other] : position > other;"),
     ("nan-let-through", "engine/src/setup-inl.hpp",
@@ -69,8 +70,8 @@ MUTANTS = [
      "std::min(region.x1, scissor->x1)",
      "std::min(region.x1, scissor->x1 + (scissor->x1 < region.x1 ? 1 : 0))"),
     ("flat-minus-zero", "engine/src/shade-inl.hpp",
-     "static_cast<float>(planes.c[c]) + 0.0f;",
-     "static_cast<float>(planes.c[c]);"),
+     "values_of(l, 0)[c] + 0.0f;",
+     "values_of(l, 0)[c];"),
     ("centroid-last-sample", "engine/src/shade-inl.hpp",
      "for (int n = 0; n < target_.samples; ++n) {",
      "for (int n = target_.samples - 1; n >= 0; --n) {"),
@@ -121,7 +122,19 @@ def certify(name):
     return status, min(sizes, default=None), failed
 
 
+def broken(name, file, old, new, root):
+    text = (root / file).read_text()
+    if text.count(old) != 1:
+        print(f"mutants: {name}: its line stands {text.count(old)} times in {file}", file=sys.stderr)
+        sys.exit(2)
+    return text.replace(old, new)
+
+
 def main():
+    if sys.argv[1:] == ["--check"]:
+        for mutant in MUTANTS:
+            broken(*mutant, ROOT)
+        return 0
     unknown = set(sys.argv[1:]) - {mutant[0] for mutant in MUTANTS}
     if unknown:
         sys.exit(f"mutants: no such mutant: {', '.join(sorted(unknown))}")
@@ -131,12 +144,8 @@ def main():
         if sys.argv[1:] and name not in sys.argv[1:]:
             continue
         refresh_copy()
-        path = WORK / "src" / file
-        text = path.read_text()
-        if text.count(old) != 1:
-            print(f"mutants: {name}: its line stands {text.count(old)} times in {file}", file=sys.stderr)
-            sys.exit(2)
-        path.write_text(text.replace(old, new))
+        text = broken(name, file, old, new, WORK / "src")
+        (WORK / "src" / file).write_text(text)
         build()
         status, triangles, failed = certify(name)
         caught = status == 1 and triangles is not None and triangles <= 2

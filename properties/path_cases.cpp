@@ -155,6 +155,48 @@ PathScene crowd_case(std::uint64_t number) {
   return made;
 }
 
+// Fine meshes, several over each other, with larger triangles among theirs: most have at most 2 x 2 samples, many edges
+// run through samples, many depths tie.
+PathScene fine_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = random.between(4, 140), scene.height = random.between(4, 140);
+  scene.draws.resize(1 + random.below(2));
+  for (corpus::SceneDraw& draw : scene.draws) {
+    for (std::uint32_t layer = 0, layers = 1 + random.below(3); layer < layers; ++layer) {
+      const int step = random.between(4, 32), jitter = random.one_in(3) ? 0 : random.between(1, step);
+      const int left = random.between(-16, 16 * scene.width), top = random.between(-16, 16 * scene.height);
+      const std::uint32_t columns = 2 + random.below(10), rows = 2 + random.below(10);
+      const bool flat = random.one_in(2), fractions = random.one_in(2);
+      const auto first = static_cast<std::uint32_t>(draw.vertices.size());
+      for (std::uint32_t n = 0; n < columns * rows; ++n) {
+        const auto place = [&](int from, std::uint32_t i) {
+          const float at = static_cast<float>(from + static_cast<int>(i) * step + random.between(-jitter, jitter)) / 16;
+          return fractions ? at + static_cast<float>(random.unit()) / 64 : at;
+        };
+        const float w = random.one_in(4) ? static_cast<float>(1 + random.below(7)) / 4 : 1;
+        const float z = flat ? 0.5f : static_cast<float>(random.between(-1, 9)) / (random.one_in(2) ? 8.0f : 7.0f);
+        draw.vertices.push_back({place(left, n % columns) * w, place(top, n / columns) * w, z * w, w, {}});
+      }
+      for (std::uint32_t n = 0; n + columns + 1 < columns * rows; ++n) {
+        const std::uint32_t a = first + n, b = a + 1, c = a + columns, d = c + 1;
+        if (n % columns == columns - 1) continue;
+        draw.triangles.push_back({{a, b, c}, {}});
+        draw.triangles.push_back({{b, d, c}, {}});
+        if (random.one_in(12)) {
+          const auto any = [&] { return first + random.below(columns * rows); };
+          draw.triangles.push_back({{any(), any(), any()}, {}});
+        }
+      }
+    }
+  }
+  if (random.one_in(2)) add_state(scene, random);
+  made.outputs = random_outputs(scene, random);
+  made.threads = random_threads(random), made.executor = random.one_in(4), made.streams = random.one_in(4);
+  return made;
+}
+
 // Planes over whole tiles, parallel or crossing, as near to each other as float32 depths can be, about a depth of any
 // size or about 0: what hierarchical z may hide and what not is a matter of the last bit.
 PathScene layers_case(std::uint64_t number) {
@@ -398,6 +440,7 @@ constexpr PathCases kCases[] = {
     {"tiles", "random scenes of a few tiles", 400, tiles_case},
     {"bands", "random scenes of several bands for each thread", 60, bands_case},
     {"crowd", "more triangles than are set up at a time", 150, crowd_case},
+    {"fine", "fine meshes of triangles with at most 2 x 2 samples, and larger ones among them", 600, fine_case},
     {"halfway", "values halfway between two float32, but for what a double cannot hold", 3000, halfway_case},
     {"boxed", "draws in culling boxes, beside borders, behind the eye or behind other draws", 1000, boxed_case},
     {"clipped", "slivers that Grid clips and folds", 300, clipped_case},

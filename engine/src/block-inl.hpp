@@ -11,11 +11,12 @@
 #endif
 
 #include "cell-inl.hpp"
-#include "fragment-inl.hpp"
 #include "hwy/cache_control.h"
+#include "tiny-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
+namespace {  // not visible to the linker
 namespace hn = hwy::HWY_NAMESPACE;
 
 // kWinner and kCount only with a canvas that has them; kWinner implies kDepth.
@@ -46,9 +47,11 @@ class Rasterizer {
   }
 
  private:
-  // The triangles of some lanes, in order.
+  // The triangles of some lanes: in order, but for those that can tell who comes first.
   HWY_NOINLINE void Lanes(std::uint32_t lanes) {
     special_ = writer_.AnySpecial(*batch_, batch_->live);
+    const std::uint32_t tiny = special_ || (kDepth && kCount) ? 0 : batch_->tiny & lanes;
+    lanes &= ~tiny;
     for (; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
       if ((batch_->small >> lane & 1) != 0) {
@@ -65,6 +68,9 @@ class Rasterizer {
       }
     }
     DrawSmall();
+    if (tiny == 0) return;
+    for (std::uint32_t rest = tiny; rest != 0; rest &= rest - 1) Touch(static_cast<std::uint32_t>(__builtin_ctz(rest)));
+    DrawTiny(*batch_, tiny, canvas_, bands_, writer_);
   }
 
   // The same where some are clipped, or a visitor has to see each.
@@ -680,6 +686,7 @@ void Rasterize(const DrawJob& job, std::span<const Batch> batches, const Canvas&
   }
 }
 
+}  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -111,6 +111,7 @@ struct alignas(64) Batch {
   // Sets of lanes.
   std::uint32_t live;        // to be drawn
   std::uint32_t small;       // box within 4 x 4 cells; the origin is the box's first cell
+  std::uint32_t tiny;        // small, and the box has at most 2 x 2 samples
   std::uint32_t medium;      // box within 8 x 8 blocks; the origin is the box's first block, as it is for all others
   std::uint32_t slow_depth;  // no error bound of depth is known
   std::uint32_t clip;        // depth may lie outside 0..1 somewhere

@@ -15,6 +15,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
+namespace {  // not visible to the linker
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The 16 samples of a cell, in as many vectors as it takes.
@@ -112,6 +113,7 @@ struct Plane {
   double DepthAt(int x, int y) const { return z + (z_x * (x - origin_x) + z_y * (y - origin_y)); }
 };
 
+}  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

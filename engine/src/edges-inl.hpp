@@ -18,6 +18,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
+namespace {  // not visible to the linker
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Doubles, and floats and integers of as many lanes; a batch is kBatch / Lanes of them.
@@ -320,6 +321,7 @@ class Splitter {
   V power_, magic_;
 };
 
+}  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

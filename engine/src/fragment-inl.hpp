@@ -17,6 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
+namespace {  // not visible to the linker
 namespace hn = hwy::HWY_NAMESPACE;
 
 // kWinner and kCount only with a canvas that has them; kWinner implies kDepth.
@@ -48,7 +49,7 @@ class FragmentWriter {
   }
 
   // Does the triangle in a lane of the batch cover the sample (x, y)? Exactly.
-  bool Covers(const Batch& batch, std::uint32_t lane, int x, int y) {
+  HWY_NOINLINE bool Covers(const Batch& batch, std::uint32_t lane, int x, int y) {
     const PixelBox& r = job_.region;
     if (x < r.x0 || x >= r.x1 || y < r.y0 || y >= r.y1) return false;
     if (draw_.grid) return SnappedCovers(*draw_.grid, batch, lane, Position(x, y), job_.shift);
@@ -68,6 +69,11 @@ class FragmentWriter {
     }
     if (kCount) CountOne(offset);
     if (kDepth && Passes(position, z, offset)) Store(position, z, offset);
+  }
+
+  // A covered sample whose depth is known, of a triangle that is not special.
+  HWY_INLINE void Fragment(std::uint32_t position, float z, std::size_t offset) {
+    if (Passes(position, z, offset)) Store(position, z, offset);
   }
 
   // The clipped triangle at `position`. Grid only.
@@ -271,6 +277,7 @@ class FragmentWriter {
   ExactDraw exact_;
 };
 
+}  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -15,6 +15,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
+namespace {  // not visible to the linker
 namespace hn = hwy::HWY_NAMESPACE;
 
 // Rounds c / w to the grid: a position in pixels, exact. `unsure` gets the lanes in which the quotient is too close to
@@ -191,6 +192,7 @@ HWY_NOINLINE std::uint32_t FindClipped(const DrawJob& job, std::uint32_t& degene
   return batch.clipped;
 }
 
+}  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -14,6 +14,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
+namespace {  // not visible to the linker
 namespace hn = hwy::HWY_NAMESPACE;
 
 // The samples of the region that the triangles in lanes lane ... can cover. Grid: of the snapped corners.
@@ -206,7 +207,7 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const BandSet& bands, const Ba
   const Draw& draw = *job.draw;
   const bool grid = draw.grid.has_value();
   FoundLanes found;
-  batch.small = batch.medium = batch.slow_depth = batch.clip = batch.negative = 0;
+  batch.small = batch.tiny = batch.medium = batch.slow_depth = batch.clip = batch.negative = 0;
   // Each triangle is counted by the set that owns its first band; where boxes do not tell, or draws are skipped by some
   // sets, by the first set.
   const bool by_band = !bands.all && !grid && !draw.culling_box;
@@ -248,6 +249,8 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const BandSet& bands, const Ba
         hn::Max(hn::Sub(last_x, hn::AndNot(seven, first_x)), hn::Sub(last_y, hn::AndNot(seven, first_y)));
     const auto is_small = hn::Lt(cell_span, hn::Set(di, 16));
     batch.small |= Bits(di, is_small) << lane;
+    const auto span = hn::Max(hn::Sub(last_x, first_x), hn::Sub(last_y, first_y));
+    batch.tiny |= Bits(di, hn::Lt(span, hn::Set(di, 2))) << lane;
     batch.medium |= Bits(di, hn::Lt(block_span, hn::Set(di, kTileSize))) << lane;
     const auto low_bits = hn::IfThenElse(is_small, three, seven);
     const auto origin_x = hn::AndNot(low_bits, first_x), origin_y = hn::AndNot(low_bits, first_y);
@@ -423,6 +426,7 @@ void SetUp(const DrawJob& job, const BandSet& bands, std::uint32_t first, std::u
   statistics.clipped += ones(batch.clipped);
 }
 
+}  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

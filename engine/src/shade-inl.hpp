@@ -17,6 +17,7 @@
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
+namespace {  // not visible to the linker
 namespace hn = hwy::HWY_NAMESPACE;
 
 class Shader {
@@ -188,7 +189,7 @@ class Shader {
       for (std::uint32_t c = 0; c < outputs_[k].components; ++c) outputs_[k].values[s * outputs_[k].components + c] = 0;
     }
   }
-  void ClearRow(int x0, int y) const {
+  HWY_NOINLINE void ClearRow(int x0, int y) const {
     const int x1 = std::min(x0 + 8, target_.width);
     if (target_.samples > 1) {
       for (int x = x0; x < x1; ++x) Clear(SampleIndex(x, y));
@@ -203,7 +204,7 @@ class Shader {
   const Draw& draw() const { return *job_.jobs[draw_].draw; }
 
   // Where the attributes of pixel (x, y) are taken (M1).
-  SamplePosition PositionOf(std::uint32_t position, int x, int y) {
+  HWY_NOINLINE SamplePosition PositionOf(std::uint32_t position, int x, int y) {
     const SamplePosition centre{x + 0.5, y + 0.5};
     exact_.use(draw(), position);
     if (target_.attribute_location == AttributeLocation::centre && exact_.has_values(centre)) return centre;
@@ -381,6 +382,7 @@ void Shade(const ShadeJob& job, const Canvas& canvas, int y0, int y1, Statistics
   Shader(job, canvas, statistics).Run(y0, y1);
 }
 
+}  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 

@@ -499,6 +499,14 @@ class BatchBounds {
     const double slopes = std::fabs(batch_.z_x[lane]) + std::fabs(batch_.z_y[lane]);
     const double largest = std::fabs(batch_.z[lane]) + 18 * slopes;
     expect(error <= 1.001 * batch_.z_error[lane] + 0x1p-40 * largest + 0x1p-140, "parts add little to the error");
+    // As docs/precision.md has it: 56 units of 2^-46 of the power of two at or below the largest part.
+    const double columns = x1_ - origin_x_, rows = y1_ - origin_y_;
+    const double size = std::fabs(batch_.z[lane]) +
+                        (std::fabs(batch_.z_x[lane]) * columns + std::fabs(batch_.z_y[lane]) * rows) + 3 * slopes;
+    if (batch_.z_error[lane] != 0) {
+      const double power = std::ldexp(1, std::ilogb(std::max(size, 0x1p-100)));
+      expect(error >= batch_.z_error[lane] + 56 * 0x1p-46 * power, "the error of the parts holds that of splitting");
+    }
     expect(error >= batch_.z_error[lane], "the error of the parts holds that of the plane");
     const auto step = [&](int x, int y, const float(&along_x)[fast::kBatch], const float(&along_y)[fast::kBatch]) {
       return along_x[lane] * static_cast<float>(x) + along_y[lane] * static_cast<float>(y);

@@ -51,6 +51,13 @@ PathScene random_case(std::uint64_t number, int size, int triangles) {
   made.in_place = random.one_in(2), made.executor = random.one_in(4), made.streams = random.one_in(3);
   if (random.one_in(8)) share_identifiers(made.scene, random);
   made.alone = made.threads > 1 && random.one_in(4);
+  corpus::SceneDraw& draw = made.scene.draws[random.below(static_cast<std::uint32_t>(made.scene.draws.size()))];
+  if (!made.scene.attributes.empty() && !draw.vertices.empty() && random.one_in(12)) {  // of any vertex (B1)
+    auto& values = draw.vertices[random.below(static_cast<std::uint32_t>(draw.vertices.size()))].attributes;
+    constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    constexpr float kNone[] = {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
+    values[random.below(static_cast<std::uint32_t>(values.size()))] = kNone[random.below(3)];
+  }
   return made;
 }
 
@@ -518,6 +525,15 @@ PathResult draw_path(const PathScene& of, const Options& with) {
     target.initial_depth = target.depth;
   }
   Options options = with;
+  // Where one attribute is all that a vertex has, its stride need not be said.
+  std::vector<Draw> draws(frame.draws().begin(), frame.draws().end());
+  std::vector<std::vector<AttributeArray>> attributes;
+  for (Draw& draw : draws) {
+    auto& arrays = attributes.emplace_back(draw.attributes.begin(), draw.attributes.end());
+    for (AttributeArray& array : arrays)
+      if (array.stride == array.components) array.stride = 0;
+    draw.attributes = arrays;
+  }
   PathResult result;
   if (of.executor) {
     options.executor.run = [](void* handed_out, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
@@ -527,7 +543,7 @@ PathResult draw_path(const PathScene& of, const Options& with) {
     options.executor.context = &result.handed_out;
   }
   const std::unique_ptr<NoThreads> alone(of.alone ? new NoThreads : nullptr);
-  result.hash = static_cast<std::uint64_t>(render(target, frame.draws(), &result.statistics, options));
+  result.hash = static_cast<std::uint64_t>(render(target, draws, &result.statistics, options));
   for_each([&](auto& value) {
     result.hash = (result.hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15u;
     result.hash ^= result.hash >> 29;
@@ -562,7 +578,7 @@ PathResult draw_path(const PathScene& of, const Options& with) {
   };
   Statistics statistics;
   const Status status =
-      visit_coverage(target.width, target.height, target.samples, frame.draws(), {visit, &sink}, &statistics, options);
+      visit_coverage(target.width, target.height, target.samples, draws, {visit, &sink}, &statistics, options);
   result.stream = sink.sum + static_cast<std::uint64_t>(status);
   if (status == Status::ok && !image.count.empty())
     result.counts_agree = sink.counts == image.count && statistics.triangles == result.statistics.triangles &&

@@ -345,7 +345,11 @@ PathScene halfway_case(std::uint64_t number) {
     float z[3];
     hard_values(z);
     const float corners[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-    const float scale = random.one_in(2) ? 1 : std::ldexp(1.0f, random.between(-3, 3));
+    // An odd scale, where only attributes are hard, and numbers far from 1: errors are relative to the terms they have.
+    const bool wide = random.one_in(3);
+    const float scale = wide               ? std::ldexp(static_cast<float>(odd_below(15)), random.between(-30, 30))
+                        : random.one_in(2) ? 1
+                                           : std::ldexp(1.0f, random.between(-3, 3));
     const auto first = static_cast<std::uint32_t>(draw.vertices.size());
     for (std::size_t k = 0; k < 3; ++k) {
       draw.vertices.push_back({(static_cast<float>(x) + corners[k][0] * static_cast<float>(leg)) * scale,
@@ -357,6 +361,8 @@ PathScene halfway_case(std::uint64_t number) {
     for (std::uint32_t c = 0; c < components; ++c) {
       float u[3];
       hard_values(u);
+      const int exponent = wide ? random.between(-90, 90) : 0;
+      for (float& value : u) value = std::ldexp(value, exponent);
       for (std::size_t k = 0; k < 3; ++k) draw.vertices[first + k].attributes.push_back(u[k]);
     }
     draw.triangles.push_back({{first, first + 1, first + 2}, {}});

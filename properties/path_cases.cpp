@@ -345,7 +345,7 @@ PathScene halfway_case(std::uint64_t number) {
     float z[3];
     hard_values(z);
     const float corners[3][2] = {{0, 0}, {1, 0}, {0, 1}};
-    // An odd scale, where only attributes are hard, and numbers far from 1: errors are relative to the terms they have.
+    // Or an odd scale, where attributes alone are halfway, and all far from 1: bounds are relative to their terms.
     const bool wide = random.one_in(3);
     const float scale = wide               ? std::ldexp(static_cast<float>(odd_below(15)), random.between(-30, 30))
                         : random.one_in(2) ? 1
@@ -418,7 +418,7 @@ PathScene boxed_case(std::uint64_t number) {
     const float tiny = std::ldexp(static_cast<float>(random.between(-1, 1)), random.one_in(2) ? -24 : -140);
     const float z = hides ? base + std::ldexp(static_cast<float>(random.between(-2, 2)), random.one_in(4) ? 0 : -23)
                           : static_cast<float>(random.below(2)) + tiny;
-    const bool turned = random.one_in(4), behind = random.one_in(6);
+    const bool behind = random.one_in(6), turned = behind || random.one_in(4);
     for (std::size_t k = 0; k < 4; ++k) {
       const float w = behind && random.one_in(2) ? static_cast<float>(random.between(-1, 0))
                                                  : std::ldexp(1.0f, random.between(-1, 1));

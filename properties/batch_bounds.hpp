@@ -35,7 +35,7 @@ class BatchBounds {
     const auto all = categories();
     const Category& category = all[random_.below(static_cast<std::uint32_t>(all.size()))];
     constexpr int kSizes[] = {4, 16, 60, 200, 1000, kMaxTargetSize};
-    const int size = kSizes[random_.below(6)];
+    int size = kSizes[random_.below(6)];
     const std::uint32_t count = 1 + random_.below(fast::kBatch);
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
@@ -46,6 +46,7 @@ class BatchBounds {
     const bool thin = draw_.grid && random_.one_in(3), crossing = !thin && random_.one_in(6);
     const int x = random_.between(0, kMaxTargetSize - 4), y = random_.between(0, kMaxTargetSize - 4);
     if (thin) draw_.grid->bits = random_.between(10, 12);
+    if (thin && random_.one_in(2)) size = kMaxTargetSize;
     for (std::uint32_t t = 0; t < count; ++t) {
       for (const Vertex& v : thin       ? thin_triangle()
                              : crossing ? crossing_triangle(x, y)
@@ -144,7 +145,12 @@ class BatchBounds {
   std::array<Vertex, 3> thin_triangle() {
     const double steps = 1 << draw_.grid->bits;
     const auto any = [&] { return std::round((2 * random_.unit() - 1) * (kMaxTargetSize - 1) * steps); };
-    const double x = any(), y = any(), dx = any() - x, dy = any() - y;
+    double x = any(), y = any(), to_x = any(), to_y = any();
+    if (random_.one_in(2)) {  // from the first sample of its box, near which it passes, down to the right
+      std::tie(x, to_x) = std::minmax({std::fabs(x), std::fabs(to_x)});
+      std::tie(y, to_y) = std::minmax({std::fabs(y), std::fabs(to_y)});
+    }
+    const double dx = to_x - x, dy = to_y - y;
     auto r0 = static_cast<std::int64_t>(dx), r1 = static_cast<std::int64_t>(dy);
     double v0 = 1, v1 = 0, u0 = 0, u1 = 1;  // Euclid: r = dx v + dy u, so that dx v0 + dy u0 divides both
     while (r1 != 0) {

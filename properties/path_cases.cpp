@@ -386,7 +386,7 @@ PathScene boxed_case(std::uint64_t number) {
   const bool conservative = !hides && !coarse && random.one_in(4);
   if (!conservative && random.one_in(3)) scene.samples = 1 << random.between(1, 4);
   if (random.one_in(3)) scene.depth_test = DepthTest::greater;
-  const float base = static_cast<float>(random.below(4)) / 2;
+  const float base = static_cast<float>(random.between(-1, 3)) / 2;
   scene.draws.resize(2 + random.below(5));
   for (corpus::SceneDraw& draw : scene.draws) {
     draw.fill_rule = static_cast<FillRule>(random.below(8));

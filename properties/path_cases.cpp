@@ -435,8 +435,12 @@ PathScene boxed_case(std::uint64_t number) {
     }
     if (!random.one_in(6)) continue;
     // Somewhere else, and not a box.
-    for (Vertex& v : box) v = {-100, -100, 4, 1};
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
+    if (random.one_in(2)) {
+      box.fill({1, 1, 1, kInfinity});
+      continue;
+    }
+    box.fill({-100, -100, 4, 1});
     constexpr float kNone[] = {kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN()};
     Vertex& v = box[random.below(8)];
     float* const numbers[] = {&v.x, &v.y, &v.z, &v.w};

@@ -539,8 +539,8 @@ class Rasterizer {
         const auto covered = hn::Not(hn::Lt(value, hn::Zero(d)));
         if constexpr (kDepth) {
           const auto unknown =
-              writer_.template Fragments<false, false>(hn::RebindMask(df, covered), LeastDepth(item, steps + i),
-                                                       MostDepth(item, steps + i), ordinal, offset + i);
+              writer_.template Fragments<false>(hn::RebindMask(df, covered), LeastDepth(item, steps + i),
+                                                MostDepth(item, steps + i), ordinal, offset + i);
           if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) SlowLanes<kSmall>(item, Bits(df, unknown) << i);
         } else {
           writer_.Count(covered, offset + i);
@@ -572,8 +572,8 @@ class Rasterizer {
       const std::size_t item = wholly_.items[n], offset = areas_.offset[item];
       for (std::size_t i = 0; i < 16; i += kCellLanes) {
         if constexpr (kDepth) {
-          const auto unknown = writer_.template Fragments<false, true>(all, LeastDepth(item, i), MostDepth(item, i),
-                                                                       ordinal, offset + i);
+          const auto unknown =
+              writer_.template Fragments<true>(all, LeastDepth(item, i), MostDepth(item, i), ordinal, offset + i);
           if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) SlowLanes<false>(item, Bits(df, unknown) << i);
         } else {
           writer_.Count(hn::RebindMask(CellInt(), all), offset + i);

@@ -82,20 +82,16 @@ class FragmentWriter {
     return exact_.snapped();
   }
 
-  // Covered lanes at `at` whose depth lies between low and high. Returns those of which more must be known. kTies: a
-  // triangle with a larger ordinal may have been drawn before. kSkip: leave early where nothing is seen, which pays
+  // Covered lanes at `at` whose depth lies between low and high, of a triangle whose ordinal is larger than that of any
+  // drawn there before. Returns those of which more must be known. kSkip: leave early where nothing is seen, which pays
   // where that is likely.
-  template <bool kTies, bool kSkip>
+  template <bool kSkip>
   HWY_INLINE hn::Mask<CellFloat> Fragments(hn::Mask<CellFloat> lanes, hn::Vec<CellFloat> low, hn::Vec<CellFloat> high,
                                            hn::Vec<CellUint> ordinal, std::size_t at) const {
     const CellFloat df;
     float* const depth = canvas_.depth + at;
     const auto before = hn::Load(df, depth);
-    auto seen = hn::And(lanes, hn::Lt(low, before));
-    if constexpr (kTies && kWinner) {
-      const auto later = hn::Gt(hn::Load(CellUint(), canvas_.winner + at), ordinal);
-      seen = hn::Or(seen, hn::And(hn::And(lanes, hn::Eq(low, before)), hn::RebindMask(df, later)));
-    }
+    const auto seen = hn::And(lanes, hn::Lt(low, before));
     if (kSkip && hn::AllFalse(df, seen)) return seen;
     const auto known = hn::And(seen, hn::Eq(low, high));
     hn::Store(hn::IfThenElse(known, low, before), df, depth);
@@ -148,7 +144,7 @@ class FragmentWriter {
     lanes = hn::AndNot(unknown, lanes);
     if constexpr (kCount) Count(hn::RebindMask(d, lanes), offset + i);
     if (!ordered_) {
-      Fragments<false, false>(lanes, low, low, hn::Set(CellUint(), Ordinal(position)), offset + i);
+      Fragments<false>(lanes, low, low, hn::Set(CellUint(), Ordinal(position)), offset + i);
       return;
     }
     alignas(64) float depths[kCellLanes];

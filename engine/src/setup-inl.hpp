@@ -170,7 +170,7 @@ HWY_INLINE void StoreDepth(const DrawJob& job, const Corner (&v)[3], const Edges
   splitter.Split(zy, high, low);
   hn::Store(high, df, batch.high_y + lane);
   hn::Store(low, df, batch.low_y + lane);
-  const auto zero = hn::Eq(hn::Add(largest, total), hn::Zero(dd));  // depth is 0 everywhere, without error
+  const auto zero = hn::Eq(total, hn::Zero(dd));  // then size and way are 0: depth is 0 everywhere, without error
   hn::Store(hn::DemoteTo(df, hn::IfThenZeroElse(zero, splitter.Error(total))), df, batch.low_error + lane);
 }
 

@@ -163,28 +163,37 @@ PathScene crowd_case(std::uint64_t number) {
 }
 
 // Fine meshes, several over each other, with larger triangles among theirs: most have at most 2 x 2 samples, many edges
-// run through samples, many depths tie.
+// run through samples or beside them by next to nothing, many depths tie, or round to 0 from below. Some frames have
+// counts alone, which may be a coarse grid's, or of squares inside.
 PathScene fine_case(std::uint64_t number) {
   Random random(number);
   PathScene made;
   corpus::Scene& scene = made.scene;
-  scene.width = random.between(4, 140), scene.height = random.between(4, 140);
+  const auto any_size = [&] { return random.one_in(4) ? 64 * random.between(1, 2) : random.between(4, 140); };
+  scene.width = any_size(), scene.height = any_size();
   scene.draws.resize(1 + random.below(2));
   for (corpus::SceneDraw& draw : scene.draws) {
     for (std::uint32_t layer = 0, layers = 1 + random.below(3); layer < layers; ++layer) {
       const int step = random.between(4, 32), jitter = random.one_in(3) ? 0 : random.between(1, step);
       const int left = random.between(-16, 16 * scene.width), top = random.between(-16, 16 * scene.height);
       const std::uint32_t columns = 2 + random.below(10), rows = 2 + random.below(10);
-      const bool flat = random.one_in(2), fractions = random.one_in(2);
+      const bool flat = random.one_in(2), next_to_0 = random.one_in(8);
+      const std::uint32_t fractions = random.below(3);
       const auto first = static_cast<std::uint32_t>(draw.vertices.size());
       for (std::uint32_t n = 0; n < columns * rows; ++n) {
         const auto place = [&](int from, std::uint32_t i) {
           const float at = static_cast<float>(from + static_cast<int>(i) * step + random.between(-jitter, jitter)) / 16;
-          return fractions ? at + static_cast<float>(random.unit()) / 64 : at;
+          if (fractions == 1) return at + static_cast<float>(random.unit()) / 64;
+          if (fractions == 2)
+            return at + std::ldexp(static_cast<float>(random.between(-1, 1)), -random.between(17, 22));
+          return at;
         };
-        const float w = random.one_in(4) ? static_cast<float>(1 + random.below(7)) / 4 : 1;
+        const float w = next_to_0          ? static_cast<float>(random.between(1, 6))
+                        : random.one_in(4) ? static_cast<float>(random.between(1, 7)) / 4
+                                           : 1.0f;
         const float z = flat ? 0.5f : static_cast<float>(random.between(-1, 9)) / (random.one_in(2) ? 8.0f : 7.0f);
-        draw.vertices.push_back({place(left, n % columns) * w, place(top, n / columns) * w, z * w, w, {}});
+        const float zw = next_to_0 ? std::ldexp(static_cast<float>(random.between(-2, 1)), -149) : z * w;
+        draw.vertices.push_back({place(left, n % columns) * w, place(top, n / columns) * w, zw, w, {}});
       }
       for (std::uint32_t n = 0; n + columns + 1 < columns * rows; ++n) {
         const std::uint32_t a = first + n, b = a + 1, c = a + columns, d = c + 1;
@@ -201,6 +210,14 @@ PathScene fine_case(std::uint64_t number) {
   if (random.one_in(2)) add_state(scene, random);
   made.outputs = random_outputs(scene, random);
   made.threads = random_threads(random), made.executor = random.one_in(4), made.streams = random.one_in(4);
+  if (!random.one_in(4)) return made;
+  made.outputs = {true, false, false, false, false};
+  const bool inside = scene.samples == 1 && random.one_in(3), grid = random.one_in(2);
+  for (corpus::SceneDraw& draw : scene.draws) {
+    draw.depth_mode = DepthMode::none, draw.depth_write = true;
+    if (inside) draw.conservative = Conservative::inner;
+    if (!inside && grid) draw.grid = Grid{random.between(2, 6), 0, 0, static_cast<GridRounding>(random.below(3))};
+  }
   return made;
 }
 
@@ -321,7 +338,7 @@ PathScene halfway_case(std::uint64_t number) {
     scene.attributes.push_back({"u", 1 + random.below(4), static_cast<Interpolation>(random.below(2))});
   const std::uint32_t components = scene.attributes.empty() ? 0 : scene.attributes[0].components;
   corpus::SceneDraw& draw = scene.draws.emplace_back();
-  for (std::uint32_t t = 0, count = 1 + random.below(4); t < count; ++t) {
+  for (std::uint32_t t = 0, count = 1 + random.below(leg <= 2 ? 12 : 4); t < count; ++t) {
     const int x = random.between(-leg / 2, scene.width - 1), y = random.between(-leg / 2, scene.height - 1);
     // The sample (x + k1/2, y + k2/2) and its weights times 2 leg.
     const auto odd_below = [&](int n) { return 2 * random.between(0, (n - 1) / 2) + 1; };
@@ -370,6 +387,55 @@ PathScene halfway_case(std::uint64_t number) {
   if (random.one_in(3)) scene.depth_test = DepthTest::greater;
   if (random.one_in(4)) draw.depth_mode = static_cast<DepthMode>(random.below(3));
   made.outputs = random_outputs(scene, random);
+  return made;
+}
+
+// Attributes of meshes of small and large triangles, all over each other, in rows of pixels where several are seen:
+// arrays of every size, values of every amount, that each draw interpolates in its own way; not all are asked for.
+PathScene shaded_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = random.between(1, 90), scene.height = random.between(1, 40);
+  if (random.one_in(4)) scene.samples = 1 << random.between(1, 4);
+  if (random.one_in(2)) scene.attribute_location = AttributeLocation::centroid;
+  for (std::uint32_t n = 0, most = 1 + random.below(4); n < most; ++n)
+    scene.attributes.push_back(
+        {std::string(1, static_cast<char>('a' + n)), 1 + random.below(4), static_cast<Interpolation>(random.below(3))});
+  scene.draws.resize(1 + random.below(4));
+  const int amount = random.one_in(4) ? random.between(-140, 120) : 0;
+  for (corpus::SceneDraw& draw : scene.draws) {
+    const int reach = 16 * random.between(1, 20);
+    const bool constant = random.one_in(4), perspective = random.one_in(2), fine = random.one_in(2);
+    if (random.one_in(4)) draw.grid = Grid{random.between(0, 8), 0, 0, static_cast<GridRounding>(random.below(3))};
+    if (random.one_in(6)) draw.depth_mode = static_cast<DepthMode>(random.below(3));
+    for (std::uint32_t t = 0, count = random.below(40); t < count; ++t) {
+      const int x = random.between(0, 16 * scene.width), y = random.between(0, 16 * scene.height);
+      Vertex v[3];
+      for (Vertex& vertex : v) {
+        const float w = perspective ? static_cast<float>(random.between(random.one_in(16) ? -1 : 1, 8)) / 4 : 1.0f;
+        const auto place = [&](int from) {
+          const float at = static_cast<float>(from + random.between(-reach, reach)) / 16;
+          return (fine ? at + static_cast<float>(random.unit()) : at) * w;
+        };
+        vertex = {place(x), place(y), static_cast<float>(random.between(0, 8)) / 8 * w, w};
+      }
+      append(draw, v);
+    }
+    for (corpus::SceneVertex& vertex : draw.vertices) {
+      for (const corpus::SceneAttribute& attribute : scene.attributes) {
+        for (std::uint32_t c = 0; c < attribute.components; ++c) {
+          const double value = constant ? 1.0 / (3 + c) : 2 * random.unit() - 1;
+          vertex.attributes.push_back(random.one_in(16) ? -0.0f : static_cast<float>(std::ldexp(value, amount)));
+        }
+      }
+    }
+  }
+  if (random.one_in(4)) share_identifiers(scene, random);
+  made.outputs = random_outputs(scene, random);
+  made.outputs.attributes = true;
+  made.interpolations = random.one_in(2), made.wanted = random.one_in(2) ? random.below(16) : ~0u;
+  made.threads = random_threads(random);
   return made;
 }
 
@@ -459,6 +525,7 @@ constexpr PathCases kCases[] = {
     {"crowd", "more triangles than are set up at a time", 150, crowd_case},
     {"fine", "fine meshes of triangles with at most 2 x 2 samples, and larger ones among them", 600, fine_case},
     {"halfway", "values halfway between two float32, but for what a double cannot hold", 3000, halfway_case},
+    {"shaded", "attributes of every kind, several triangles to a row of pixels", 300, shaded_case},
     {"boxed", "draws in culling boxes, beside borders, behind the eye or behind other draws", 1000, boxed_case},
     {"clipped", "slivers that Grid clips and folds", 300, clipped_case},
     {"snapped", "edges on samples of a fine grid, and a step beside them", 1000, snapped_case},
@@ -540,10 +607,18 @@ PathResult draw_path(const PathScene& of, const Options& with) {
   std::vector<std::vector<AttributeArray>> attributes;
   for (Draw& draw : draws) {
     auto& arrays = attributes.emplace_back(draw.attributes.begin(), draw.attributes.end());
-    for (AttributeArray& array : arrays)
+    const std::size_t turn = of.interpolations ? attributes.size() : 0;
+    for (AttributeArray& array : arrays) {
       if (array.stride == array.components) array.stride = 0;
+      array.interpolation = static_cast<Interpolation>((static_cast<std::size_t>(array.interpolation) + turn) % 3);
+    }
     draw.attributes = arrays;
   }
+  std::vector<AttributeTarget> wanted(target.attributes.begin(), target.attributes.end());
+  for (std::size_t k = 0; k < wanted.size(); ++k)
+    if ((of.wanted >> k & 1) == 0) wanted[k].values = {};
+  while (!wanted.empty() && wanted.back().values.empty()) wanted.pop_back();  // a draw may have more
+  target.attributes = wanted;
   PathResult result;
   if (of.executor) {
     options.executor.run = [](void* handed_out, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
@@ -599,7 +674,8 @@ PathResult draw_path(const PathScene& of, const Options& with) {
 std::string broken_path(const PathScene& of, const PathResult& reference) {
   const PathResult fast = draw_path(of, {.threads = of.threads});
   if (fast.hash != reference.hash) return "the image";
-  if (of.executor && of.scene.height > 64 && fast.handed_out == 0) return "the executor is not asked";
+  // A half, where the canvas has two, has several bands then.
+  if (of.executor && of.scene.height > 128 && fast.handed_out == 0) return "the executor is not asked";
   if (fast.stream != reference.stream || !fast.counts_agree) return "streamed coverage";
   if (std::string broken = broken_statistics(fast.statistics, reference.statistics, of.scene); !broken.empty())
     return "statistics: " + broken;

@@ -18,10 +18,12 @@ struct PathScene {
   corpus::Scene scene;
   corpus::Outputs outputs;
   int threads = 1;
-  bool streams = false;   // its coverage is streamed, too
-  bool executor = false;  // the caller's, of one thread
-  bool alone = false;     // no thread can be started
-  bool in_place = false;  // the depth buffer holds the initial depth, where there are both
+  bool streams = false;         // its coverage is streamed, too
+  bool executor = false;        // the caller's, of one thread
+  bool alone = false;           // no thread can be started
+  bool in_place = false;        // the depth buffer holds the initial depth, where there are both
+  bool interpolations = false;  // each draw has its own
+  std::uint32_t wanted = ~0u;   // a bit for each attribute that the target asks for
 };
 
 struct PathCases {

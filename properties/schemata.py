@@ -50,7 +50,7 @@ FAST_LITERAL = re.compile(r"(?<=[ (\[~])(\d+)(\.0f?|u|)(?=[),;\]}]| [-+*/<>=?:&|
 FAST_STATEMENT = re.compile(r"^(\s+)((?:[a-z_]\w*(?:\.|->|\[|\(| [-+*|&]?= )|\+\+\w|[A-Z]\w*(?:<\w+>)?\((?!\))|hn::\w*Store\().*"
                             r"|break;|continue;)$")
 LOGIC = re.compile(r"(?<=[\w)\]]) (&&|\|\|)(?= |$)")
-ARRAY = re.compile(r"^\s*(?:alignas\([^=;]*|(?:const )?[\w:]+(?: \*?const|\*)? (?:\w+(?: = \w+)?, )*\w+\[[^=;]*)|\(&\w+\)\[\d\]")
+ARRAY = re.compile(r"^\s*(?:alignas\([^=;]*|(?:const )?[\w:]+(?:<\w+>)?(?: \*?const|\*)? (?:\w+(?: = \w+)?, )*\w+\[[^=;]*)|\(&\w+\)\[\d\]")
 VECTOR = re.compile(r"\bhn::(\w+)(?:<(\d+)>)?(?=\()")
 VECTOR_MUTANTS = set("Abs Add AllFalse And AndNot Ceil Combine Div Eq Floor Ge Gt IfThenElse IfThenElseZero IfThenZeroElse "
                      "InterleaveLower InterleaveUpper Le Lt Max MaxOfLanes Min MinOfLanes Mul Ne Neg Not Or Round ShiftLeft "
@@ -76,10 +76,11 @@ PATHS = {
     "reference": Path("reference", ["arguments.cpp", "bounds.hpp", "conservative.hpp", "edge.hpp", "exact.hpp", "grid.cpp",
                                     "grid.hpp", "reference.cpp", "triangle.hpp", "viewport.cpp"], ALWAYS,
                       ["-DSUREFILL_REFERENCE_ONLY"]),
-    # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one.
+    # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one. Halves of
+    # canvases of more than four tiles.
     "fast": Path("fast", [*sorted(p.name for p in ENGINE.glob("*-inl.hpp")), "canvas.hpp", "culling.hpp", "exact_draw.cpp",
                           "exact_draw.hpp", "team.hpp", "tiles.cpp"], [*ALWAYS, "exact_draw.cpp", "kernels.cpp", "tiles.cpp"],
-                 ["-DHWY_COMPILE_ONLY_STATIC", "-march=x86-64-v3", "-maes", "-mpclmul"]),
+                 ["-DSUREFILL_LARGEST_WHOLE=16384", "-DHWY_COMPILE_ONLY_STATIC", "-march=x86-64-v3", "-maes", "-mpclmul"]),
 }
 
 

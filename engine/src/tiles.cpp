@@ -23,8 +23,13 @@ namespace {
 // So many batches are set up and then drawn: they stay in the first caches.
 constexpr std::size_t kChunkBatches = 16;
 
-// Samples of a canvas, of 12 bytes each, that is not drawn in halves.
+// Samples of a canvas, of 12 bytes each, that is not drawn in halves. The mutants' suite, whose frames are small, has
+// it otherwise.
+#if defined(SUREFILL_LARGEST_WHOLE)
+constexpr std::size_t kLargestWhole = SUREFILL_LARGEST_WHOLE;
+#else
 constexpr std::size_t kLargestWhole = std::size_t{1} << 23;
+#endif
 
 // Memory without exceptions, on cache lines; large pieces on large pages, where the system has them: triangles are
 // drawn all over the image.

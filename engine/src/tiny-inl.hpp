@@ -34,7 +34,7 @@ HWY_NOINLINE void TinySamples::Evaluate(const Batch& batch) {
   const FloatTag df;
   constexpr auto kLanes = static_cast<std::uint32_t>(hn::MaxLanes(DoubleTag()));
   for (std::uint32_t lane = 0; lane < kBatch; lane += kLanes) {
-    const auto zero = hn::Zero(di), one = hn::Set(di, 1), three = hn::Set(di, 3);
+    const auto zero = hn::Zero(di), three = hn::Set(di, 3);
     const auto x = hn::Load(di, batch.first_x + lane), y = hn::Load(di, batch.first_y + lane);
     const auto column = hn::And(x, three), row = hn::And(y, three);  // in the origin's cell
     const auto two_columns = hn::Gt(hn::Load(di, batch.last_x + lane), x);
@@ -64,11 +64,10 @@ HWY_NOINLINE void TinySamples::Evaluate(const Batch& batch) {
       if ((n & 1) != 0) in = two_columns;
       if ((n & 2) != 0) in = hn::And(in, two_rows);
       const std::uint32_t shift = 8 * n + lane;
-      covered |= Bits(di, hn::AndNot(hn::Lt(least, zero), in)) << shift;
+      const auto negative = hn::Lt(least, zero);
+      covered |= Bits(di, hn::AndNot(negative, in)) << shift;
       if (kExactCoverage)
-        doubtful |=
-            Bits(di, hn::And(in, hn::And(hn::Lt(least, zero), hn::Gt(hn::Add(least, hn::Add(doubt, one)), zero))))
-            << shift;
+        doubtful |= Bits(di, hn::AndNot(hn::Lt(hn::Add(least, doubt), zero), hn::And(in, negative))) << shift;
       if (kDepth) {
         auto value = z;
         if ((n & 1) != 0) value = hn::Add(value, z_x);

@@ -238,4 +238,47 @@ Scene mixed_scene(const Category& category, std::uint64_t seed, int max_size, in
   return random_scene(category, seed, limits);
 }
 
+Scene attribute_scene(Random& random) {
+  Scene scene;
+  const bool far = random.one_in(5);
+  scene.width = far ? random.between(1000, 4000) : random.between(1, 90);
+  scene.height = random.between(1, far ? 2 : 40);
+  if (random.one_in(4) && !far) scene.samples = 1 << random.between(1, 4);
+  if (random.one_in(2)) scene.attribute_location = AttributeLocation::centroid;
+  for (std::uint32_t n = 0, most = 1 + random.below(4); n < most; ++n)
+    scene.attributes.push_back(
+        {std::string(1, static_cast<char>('a' + n)), 1 + random.below(4), static_cast<Interpolation>(random.below(3))});
+  scene.draws.resize(1 + random.below(4));
+  const int amount = random.one_in(3) ? random.between(-140, 120) : 0, size = far ? random.between(-30, 30) : 0;
+  for (corpus::SceneDraw& draw : scene.draws) {
+    const int reach = 16 * random.between(1, far ? 400 : 20);
+    const bool constant = random.one_in(4), perspective = random.one_in(2), fine = far || random.one_in(2);
+    if (random.one_in(4)) draw.grid = Grid{random.between(0, 8), 0, 0, static_cast<GridRounding>(random.below(3))};
+    if (random.one_in(6)) draw.depth_mode = static_cast<DepthMode>(random.below(3));
+    for (std::uint32_t t = 0, count = random.below(40); t < count; ++t) {
+      const int x = random.between(0, 16 * scene.width), y = random.between(0, 16 * scene.height);
+      for (int k = 0; k < 3; ++k) {
+        float w = perspective ? static_cast<float>(random.between(random.one_in(16) ? -1 : 1, 8)) / 4 : 1.0f;
+        if (far) w = std::ldexp(1 + static_cast<float>(random.unit()), random.between(-8, 8) + size);
+        const auto place = [&](int from, int by) {
+          const float at = static_cast<float>(from + random.between(-by, by)) / 16;
+          return (fine ? at + static_cast<float>(random.unit()) : at) * w;
+        };
+        draw.vertices.push_back(
+            {place(x, reach), place(y, far ? 64 : reach), static_cast<float>(random.between(0, 8)) / 8 * w, w, {}});
+      }
+      draw.triangles.push_back({{3 * t, 3 * t + 1, 3 * t + 2}, {}});
+    }
+    for (corpus::SceneVertex& vertex : draw.vertices) {
+      for (const corpus::SceneAttribute& attribute : scene.attributes) {
+        for (std::uint32_t c = 0; c < attribute.components; ++c) {
+          const double value = random.one_in(16) ? -0.0 : constant ? 1.0 / (3 + c) : 2 * random.unit() - 1;
+          vertex.attributes.push_back(static_cast<float>(std::ldexp(value, amount)));
+        }
+      }
+    }
+  }
+  return scene;
+}
+
 }  // namespace surefill::properties

@@ -361,9 +361,16 @@ PathScene halfway_case(std::uint64_t number) {
     };
     float z[3];
     hard_values(z);
+    const bool level = random.one_in(4);  // along y; of few bits, so that an odd scale keeps them
+    if (level) {
+      const int few = random.between(1 << 14, (1 << 15) - 1),
+                bits = static_cast<int>(std::bit_width(static_cast<std::uint32_t>((k0 + k2) * few)));
+      z[0] = z[2] = std::ldexp(static_cast<float>(2 * leg * few), 24 - bits);
+      z[1] = static_cast<float>(leg * odd_below(15));
+    }
     const float corners[3][2] = {{0, 0}, {1, 0}, {0, 1}};
     // Or an odd scale, where attributes alone are halfway, and all far from 1: bounds are relative to their terms.
-    const bool wide = random.one_in(3);
+    const bool wide = level || random.one_in(3);
     const float scale = wide               ? std::ldexp(static_cast<float>(odd_below(15)), random.between(-30, 30))
                         : random.one_in(2) ? 1
                                            : std::ldexp(1.0f, random.between(-3, 3));
@@ -390,50 +397,14 @@ PathScene halfway_case(std::uint64_t number) {
   return made;
 }
 
-// Attributes of meshes of small and large triangles, all over each other, in rows of pixels where several are seen:
-// arrays of every size, values of every amount, that each draw interpolates in its own way; not all are asked for.
+// Attributes, several triangles to a row of pixels; each draw may interpolate in its own way, and not all are asked
+// for.
 PathScene shaded_case(std::uint64_t number) {
   Random random(number);
   PathScene made;
-  corpus::Scene& scene = made.scene;
-  scene.width = random.between(1, 90), scene.height = random.between(1, 40);
-  if (random.one_in(4)) scene.samples = 1 << random.between(1, 4);
-  if (random.one_in(2)) scene.attribute_location = AttributeLocation::centroid;
-  for (std::uint32_t n = 0, most = 1 + random.below(4); n < most; ++n)
-    scene.attributes.push_back(
-        {std::string(1, static_cast<char>('a' + n)), 1 + random.below(4), static_cast<Interpolation>(random.below(3))});
-  scene.draws.resize(1 + random.below(4));
-  const int amount = random.one_in(4) ? random.between(-140, 120) : 0;
-  for (corpus::SceneDraw& draw : scene.draws) {
-    const int reach = 16 * random.between(1, 20);
-    const bool constant = random.one_in(4), perspective = random.one_in(2), fine = random.one_in(2);
-    if (random.one_in(4)) draw.grid = Grid{random.between(0, 8), 0, 0, static_cast<GridRounding>(random.below(3))};
-    if (random.one_in(6)) draw.depth_mode = static_cast<DepthMode>(random.below(3));
-    for (std::uint32_t t = 0, count = random.below(40); t < count; ++t) {
-      const int x = random.between(0, 16 * scene.width), y = random.between(0, 16 * scene.height);
-      Vertex v[3];
-      for (Vertex& vertex : v) {
-        const float w = perspective ? static_cast<float>(random.between(random.one_in(16) ? -1 : 1, 8)) / 4 : 1.0f;
-        const auto place = [&](int from) {
-          const float at = static_cast<float>(from + random.between(-reach, reach)) / 16;
-          return (fine ? at + static_cast<float>(random.unit()) : at) * w;
-        };
-        vertex = {place(x), place(y), static_cast<float>(random.between(0, 8)) / 8 * w, w};
-      }
-      append(draw, v);
-    }
-    for (corpus::SceneVertex& vertex : draw.vertices) {
-      for (const corpus::SceneAttribute& attribute : scene.attributes) {
-        for (std::uint32_t c = 0; c < attribute.components; ++c) {
-          const double value = constant ? 1.0 / (3 + c) : 2 * random.unit() - 1;
-          vertex.attributes.push_back(random.one_in(16) ? -0.0f : static_cast<float>(std::ldexp(value, amount)));
-        }
-      }
-    }
-  }
-  if (random.one_in(4)) share_identifiers(scene, random);
-  made.outputs = random_outputs(scene, random);
-  made.outputs.attributes = true;
+  made.scene = attribute_scene(random);
+  if (random.one_in(4)) share_identifiers(made.scene, random);
+  made.outputs = random_outputs(made.scene, random), made.outputs.attributes = true;
   made.interpolations = random.one_in(2), made.wanted = random.one_in(2) ? random.below(16) : ~0u;
   made.threads = random_threads(random);
   return made;

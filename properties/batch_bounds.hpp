@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -22,6 +23,7 @@
 #include "canvas.hpp"
 #include "grid.hpp"
 #include "properties/generators.hpp"
+#include "tiles.hpp"
 #include "triangle.hpp"
 
 namespace surefill::properties {
@@ -91,6 +93,7 @@ class BatchBounds {
            "the statistics count what is drawn");
     expect(statistics.dropped == dropped_, "what is not finite is dropped");
     if (random_.one_in(8)) shares(count, std::max(size, region.y1), statistics);
+    if (random_.one_in(256)) counts_all_triangles();
     if (clips_) return broken_;
     expect(statistics.signs_by_filter + statistics.signs_by_expansion <= unsure_,
            "the sign of D is looked up only where doubles may not tell it");
@@ -108,6 +111,18 @@ class BatchBounds {
     if (!holds && broken_.empty()) broken_ = what;
   }
   static bool has(std::uint32_t lanes, std::uint32_t lane) { return (lanes >> lane & 1) != 0; }
+  // Ordinals are below kNoTriangle, over all draws: one triangle more, and the fast path cannot draw the frame.
+  void counts_all_triangles() {
+    constexpr std::size_t kEach = std::size_t{1} << 20;
+    static const std::vector<std::uint32_t> indices(3 * kEach);
+    std::vector<Draw> draws(kNoTriangle / kEach + 1);
+    for (Draw& draw : draws) draw.indices = indices;
+    Draw& last = draws[random_.below(static_cast<std::uint32_t>(draws.size()))];
+    last.indices = std::span(indices).first(3 * (kEach - 2));
+    expect(fast::supports(draws), "the fast path draws so many triangles");
+    last.indices = std::span(indices).first(3 * (kEach - 1));
+    expect(!fast::supports(draws), "the fast path draws no more triangles");
+  }
   // Whole numbers and powers of two far below them, or far above: products of which some are exact, edges that miss
   // samples by next to nothing; zeros of both signs, and sometimes an infinity.
   std::array<Vertex, 3> uneven_triangle() {

@@ -1,17 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "properties/path_cases.hpp"
 
-#include <pthread.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <memory>
-#include <mutex>
 #include <span>
-#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -326,6 +321,33 @@ PathScene snapped_case(std::uint64_t number) {
   return made;
 }
 
+// Triangles with two corners on one axis of the image and the third next to nothing from the other: coefficients of
+// edges lack what no double has beside the rest, and whole numbers are left. Samples lie as near as that to edges.
+PathScene axes_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = random.between(1, 90), scene.height = random.between(1, 90);
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  for (std::uint32_t t = 0, count = 1 + random.below(4); t < count; ++t) {
+    const auto along = static_cast<float>(random.between(1, random.one_in(2) ? 8 : 90));
+    const float corners[3][2] = {{0, along},
+                                 {0, static_cast<float>(random.between(-90, 0))},
+                                 {random.one_in(2) ? along : 2 * along,
+                                  std::ldexp(static_cast<float>(random.between(-1, 1)), -random.between(40, 120))}};
+    const bool turned = random.one_in(2);
+    const float w = std::ldexp(1.0f, random.between(-2, 2));
+    Vertex v[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      v[k] = {corners[k][turned ? 1 : 0] * w, corners[k][turned ? 0 : 1] * w, w / 2, w};
+    if (random.one_in(2)) std::swap(v[0], v[1]);
+    append(draw, v);
+  }
+  add_state(scene, random);
+  made.outputs = random_outputs(scene, random);
+  return made;
+}
+
 // Right triangles with legs of a power of two, where the weights of a sample have few bits: depth and an attribute at
 // one sample are halfway between two float32, but for a bit that no double has beside the others; or exactly.
 PathScene halfway_case(std::uint64_t number) {
@@ -422,8 +444,9 @@ PathScene boxed_case(std::uint64_t number) {
   const bool hides = random.one_in(2), coarse = random.one_in(4);
   const bool conservative = !hides && !coarse && random.one_in(4);
   if (!conservative && random.one_in(3)) scene.samples = 1 << random.between(1, 4);
-  if (random.one_in(3)) scene.depth_test = DepthTest::greater;
-  const float base = static_cast<float>(random.between(-1, 3)) / 2;
+  const bool clamped = hides && random.one_in(8);  // below 0, in front of what is not
+  if (clamped || random.one_in(3)) scene.depth_test = DepthTest::greater;
+  const float base = clamped ? -0.5f : static_cast<float>(random.between(-1, 3)) / 2;
   scene.draws.resize(2 + random.below(5));
   for (corpus::SceneDraw& draw : scene.draws) {
     draw.fill_rule = static_cast<FillRule>(random.below(8));
@@ -432,6 +455,7 @@ PathScene boxed_case(std::uint64_t number) {
                        static_cast<GridRounding>(random.below(3))};
     if (conservative) draw.conservative = random.one_in(2) ? Conservative::over : Conservative::inner;
     if (!conservative) draw.depth_mode = static_cast<DepthMode>(random.below(3));
+    if (clamped) draw.depth_mode = &draw == &scene.draws[0] ? DepthMode::none : DepthMode::clamp;
     Scissor region{0, 0, scene.width, scene.height};
     if (random.one_in(3)) {
       region.x0 = random.between(0, scene.width - 1), region.y0 = random.between(0, scene.height - 1);
@@ -500,164 +524,14 @@ constexpr PathCases kCases[] = {
     {"boxed", "draws in culling boxes, beside borders, behind the eye or behind other draws", 1000, boxed_case},
     {"clipped", "slivers that Grid clips and folds", 300, clipped_case},
     {"snapped", "edges on samples of a fine grid, and a step beside them", 1000, snapped_case},
+    {"axes", "corners on the axes of the image, or next to nothing beside them", 1000, axes_case},
     {"layers", "planes over whole tiles, as near to each other as hierarchical z can tell", 150, layers_case},
 };
-
-// The fast path looks at boxes first, whose borders it rounds to float32. With several samples its numbers are those of
-// sample 0, and other modes have other boxes.
-std::string broken_statistics(const Statistics& s, const Statistics& reference, const corpus::Scene& scene) {
-  const bool plain = scene.samples == 1 && std::all_of(scene.draws.begin(), scene.draws.end(), [](const auto& draw) {
-                       return !draw.grid && draw.conservative == Conservative::none;
-                     });
-  if (s.triangles != reference.triangles) return "triangles";
-  if (s.dropped + s.degenerate + s.culled + s.outside + s.rasterized != s.triangles)
-    return "the sum of the first group";
-  if (!plain || s.skipped_draws != 0) return "";
-  if (s.dropped != reference.dropped) return "dropped";
-  if (s.degenerate > reference.degenerate || s.culled > reference.culled) return "degenerate, or culled";
-  if (s.rasterized < reference.rasterized || s.rasterized > reference.rasterized + reference.outside)
-    return "rasterized";
-  return "";
-}
-
-// While it lives no thread starts: a stack would be larger than all memory that has addresses.
-class NoThreads {
- public:
-#if defined(__GLIBC__)
-  NoThreads() {
-    pthread_getattr_default_np(&before_);
-    pthread_attr_t none = before_;
-    pthread_attr_setstacksize(&none, std::size_t{1} << 60);
-    pthread_setattr_default_np(&none);
-  }
-  ~NoThreads() {
-    pthread_setattr_default_np(&before_);
-  }
-  NoThreads(const NoThreads&) = delete;
-  NoThreads& operator=(const NoThreads&) = delete;
-
- private:
-  pthread_attr_t before_;
-#endif
-};
-
-bool same(const Statistics& a, const Statistics& b) {
-  return a.triangles == b.triangles && a.dropped == b.dropped && a.degenerate == b.degenerate && a.culled == b.culled &&
-         a.outside == b.outside && a.rasterized == b.rasterized && a.small == b.small && a.medium == b.medium &&
-         a.large == b.large && a.clipped == b.clipped && a.signs_by_filter == b.signs_by_filter &&
-         a.signs_by_residual == b.signs_by_residual && a.signs_by_expansion == b.signs_by_expansion &&
-         a.values_by_filter == b.values_by_filter && a.values_by_expansion == b.values_by_expansion;
-}
 
 }  // namespace
 
 std::span<const PathCases> all_path_cases() {
   return kCases;
-}
-
-PathResult draw_path(const PathScene& of, const Options& with) {
-  corpus::Frame frame(of.scene, of.outputs);
-  corpus::Image& image = frame.image();
-  const auto for_each = [&](const auto& visit) {
-    for (auto* words : {&image.count, &image.index})
-      for (std::uint32_t& word : *words) visit(word);
-    for (auto* values : {&image.depth, &image.barycentrics})
-      for (float& value : *values) visit(value);
-    for (auto& values : image.attributes)
-      for (float& value : values) visit(value);
-  };
-  for_each([](auto& value) { value = std::bit_cast<std::decay_t<decltype(value)>>(0x4DEADBEFu); });
-  Target target = frame.target();
-  if (of.in_place && !target.depth.empty() && !target.initial_depth.empty()) {
-    std::copy(target.initial_depth.begin(), target.initial_depth.end(), target.depth.begin());
-    target.initial_depth = target.depth;
-  }
-  Options options = with;
-  // Where one attribute is all that a vertex has, its stride need not be said.
-  std::vector<Draw> draws(frame.draws().begin(), frame.draws().end());
-  std::vector<std::vector<AttributeArray>> attributes;
-  for (Draw& draw : draws) {
-    auto& arrays = attributes.emplace_back(draw.attributes.begin(), draw.attributes.end());
-    const std::size_t turn = of.interpolations ? attributes.size() : 0;
-    for (AttributeArray& array : arrays) {
-      if (array.stride == array.components) array.stride = 0;
-      array.interpolation = static_cast<Interpolation>((static_cast<std::size_t>(array.interpolation) + turn) % 3);
-    }
-    draw.attributes = arrays;
-  }
-  std::vector<AttributeTarget> wanted(target.attributes.begin(), target.attributes.end());
-  for (std::size_t k = 0; k < wanted.size(); ++k)
-    if ((of.wanted >> k & 1) == 0) wanted[k].values = {};
-  while (!wanted.empty() && wanted.back().values.empty()) wanted.pop_back();  // a draw may have more
-  target.attributes = wanted;
-  PathResult result;
-  if (of.executor) {
-    options.executor.run = [](void* handed_out, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
-      *static_cast<std::size_t*>(handed_out) += items;
-      while (items-- > 0) task(argument, items);
-    };
-    options.executor.context = &result.handed_out;
-  }
-  const std::unique_ptr<NoThreads> alone(of.alone ? new NoThreads : nullptr);
-  result.hash = static_cast<std::uint64_t>(render(target, draws, &result.statistics, options));
-  for_each([&](auto& value) {
-    result.hash = (result.hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15u;
-    result.hash ^= result.hash >> 29;
-  });
-  if (!of.streams) return result;
-  // In any order: a sum over the blocks, and counts.
-  struct Sink {
-    std::mutex mutex;
-    std::uint64_t sum = 0;
-    std::vector<std::uint32_t> counts;
-    int width, height, samples;
-  } sink;
-  sink.width = target.width, sink.height = target.height, sink.samples = target.samples;
-  sink.counts.resize(sample_total(target));
-  const auto visit = [](void* context, std::span<const CoverageBlock> blocks) {
-    Sink& to = *static_cast<Sink*>(context);
-    const std::lock_guard lock(to.mutex);
-    for (const CoverageBlock& b : blocks) {
-      std::uint64_t key = b.mask;
-      for (const auto part : {b.draw, b.triangle, static_cast<std::uint32_t>(b.x), static_cast<std::uint32_t>(b.y),
-                              static_cast<std::uint32_t>(b.sample)})
-        key = (key ^ key >> 31 ^ part) * 0x9E3779B97F4A7C15u;
-      to.sum += key ^ key >> 29;
-      for (int bit = 0; bit < 64; ++bit) {
-        if ((b.mask >> bit & 1) == 0) continue;
-        const int x = b.x + bit % 8, y = b.y + bit / 8;
-        const bool within = x >= 0 && x < to.width && y >= 0 && y < to.height && b.sample < to.samples;
-        if (within) ++to.counts[static_cast<std::size_t>((y * to.width + x) * to.samples + b.sample)];
-        if (!within) ++to.counts[0];  // what cannot be
-      }
-    }
-  };
-  Statistics statistics;
-  const Status status =
-      visit_coverage(target.width, target.height, target.samples, draws, {visit, &sink}, &statistics, options);
-  result.stream = sink.sum + static_cast<std::uint64_t>(status);
-  if (status == Status::ok && !image.count.empty())
-    result.counts_agree = sink.counts == image.count && statistics.triangles == result.statistics.triangles &&
-                          statistics.dropped == result.statistics.dropped;
-  return result;
-}
-
-std::string broken_path(const PathScene& of, const PathResult& reference) {
-  const PathResult fast = draw_path(of, {.threads = of.threads});
-  if (fast.hash != reference.hash) return "the image";
-  // A half, where the canvas has two, has several bands then.
-  if (of.executor && of.scene.height > 128 && fast.handed_out == 0) return "the executor is not asked";
-  if (fast.stream != reference.stream || !fast.counts_agree) return "streamed coverage";
-  if (std::string broken = broken_statistics(fast.statistics, reference.statistics, of.scene); !broken.empty())
-    return "statistics: " + broken;
-  if (of.threads == 3) {
-    const PathResult alone = draw_path(of, {.threads = 1});
-    if (alone.hash != reference.hash) return "the image on one thread";
-    // Of draws that a culling box skips, the first thread's numbers are told.
-    const bool skips = fast.statistics.skipped_draws + alone.statistics.skipped_draws != 0;
-    if (!skips && !same(fast.statistics, alone.statistics)) return "statistics on one thread and on several";
-  }
-  return "";
 }
 
 }  // namespace surefill::properties

@@ -229,6 +229,11 @@ class Rasterizer {
     return owned;
   }
 
+  // What belongs to other threads is not even looked at: is the block there in a band of this set, and are all four of
+  // the area?
+  bool OwnsBlock(int x, int y) const { return bands_.owns(y >> kTileLog2) && x >> kTileLog2 < canvas_.tiles_x; }
+  bool OwnsBlocks(int x, int y) const { return OwnsBlock(x + 8, y) && OwnsBlock(x + 8, y + 8); }
+
   // ---- within 8 x 8 blocks
   void Medium(std::uint32_t lane) {
     Plane plane;
@@ -309,7 +314,7 @@ class Rasterizer {
           const auto nearest = hn::Min(hn::Add(hn::Mul(hn::Set(d, plane.z_x), dx),
                                                hn::Set(d, plane.z_y * (ty - plane.origin_y) + (plane.z + dip))),
                                        hn::Set(d, plane.z_most));
-          const auto far = hn::PromoteTo(d, hn::LoadU(df, canvas_.tile_far + canvas_.tile_of(tx, ty)));
+          const auto far = hn::PromoteTo(d, hn::LoadU(df, canvas_.tile_far + canvas_.far_of(tx, ty)));
           possible = hn::AndNot(writer_.with_identifiers ? hn::Gt(hn::PromoteTo(d, hn::DemoteTo(df, nearest)), far)
                                                          : hn::Ge(nearest, far),
                                 possible);
@@ -372,7 +377,16 @@ class Rasterizer {
       if (plane.hides) {
         const std::size_t block = canvas_.block_of(x + area_x, y + area_y);
         const auto below = static_cast<std::size_t>(canvas_.blocks_x());
-        cells &= kCellsOfBlocks[VisibleBlocks(plane, z, dips, canvas_.block_far + block, below)];
+        const float* far = canvas_.block_far + block;
+        float own[4];
+        if (!bands_.all && !OwnsBlocks(x + area_x, y + area_y)) {
+          for (int i = 0; i < 4; ++i) {
+            const int right = x + area_x + 8 * (i & 1), down = y + area_y + 8 * (i >> 1);
+            own[i] = OwnsBlock(right, down) ? canvas_.block_far[canvas_.block_of(right, down)] : 0;
+          }
+          far = own;
+        }
+        cells &= kCellsOfBlocks[VisibleBlocks(plane, z, dips, far, far == own ? 2 : below)];
         // Of each whole block, its first cell.
         std::uint32_t whole = cells & full;
         whole &= whole >> 1;
@@ -651,7 +665,7 @@ class Rasterizer {
     for (int r = 0; r < 8; ++r, row += canvas_.blocks_x()) {
       for (std::size_t i = 0; i < 8; i += hn::Lanes(df)) far = hn::Max(far, hn::LoadU(df, row + i));
     }
-    canvas_.tile_far[canvas_.tile_of(x, y)] = hn::GetLane(hn::MaxOfLanes(df, far));
+    canvas_.tile_far[canvas_.far_of(x, y)] = hn::GetLane(hn::MaxOfLanes(df, far));
   }
 
   const DrawJob& job_;

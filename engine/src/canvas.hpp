@@ -74,6 +74,8 @@ struct Canvas {
     return static_cast<std::size_t>(y >> kTileLog2) * static_cast<std::size_t>(tiles_x) +
            static_cast<std::size_t>(x >> kTileLog2);
   }
+  // Of tile_far: eight tiles are read at once, all of them in one band.
+  std::size_t far_of(int x, int y) const { return tile_of(x, y) + static_cast<std::size_t>(y >> kTileLog2) * 8; }
   // Of the sample (x, y) of the first blocks, without the tables.
   std::size_t offset_in_blocks(int x, int y) const {
     return block_of(x, y) * 64 + static_cast<std::size_t>(((y >> kCellLog2) & 1) * 32 + ((x >> kCellLog2) & 1) * 16);

@@ -80,7 +80,7 @@ inline bool is_hidden(const CullingBox& box, const DrawJob& job, const Canvas& c
   for (int ty = r.y0 & -kTile; ty < r.y1; ty += kTile) {
     if (!bands.owns(ty >> kTileLog2)) continue;
     for (int tx = r.x0 & -kTile; tx < r.x1; tx += kTile) {
-      if (nearest >= canvas.tile_far[canvas.tile_of(tx, ty)]) continue;
+      if (nearest >= canvas.tile_far[canvas.far_of(tx, ty)]) continue;
       for (int y = std::max(ty, r.y0 & -kBlock); y < std::min(ty + kTile, r.y1); y += kBlock) {
         for (int x = std::max(tx, r.x0 & -kBlock); x < std::min(tx + kTile, r.x1); x += kBlock) {
           if (!(nearest >= canvas.block_far[canvas.block_of(x, y)])) return false;

@@ -111,7 +111,7 @@ class Renderer {
   bool allocate() {
     const std::size_t blocks = canvas_.blocks();
     const std::size_t samples = static_cast<std::size_t>(canvas_.tiles_x) * static_cast<std::size_t>(strip_) * 64 * 64;
-    // A region of 8 x 8 blocks or 8 tiles may begin at the last one.
+    // A region of 8 x 8 blocks may begin at the last one.
     const std::size_t beyond = 8 * static_cast<std::size_t>(canvas_.blocks_x()) + 16;
     jobs_.reset(new (std::nothrow) DrawJob[draws_.size()]);
     statistics_.reset(new (std::nothrow) Statistics[slots()]());
@@ -119,7 +119,7 @@ class Renderer {
               batches_.allocate(kChunkBatches * static_cast<std::size_t>(threads_));
     if (ok && depth_) {
       ok = depth_buffer_.allocate(samples) && block_far_.allocate(blocks + beyond) &&
-           tile_far_.allocate(blocks / 64 + 8);
+           tile_far_.allocate(canvas_.far_of(0, kTileSize * canvas_.tiles_y));
     }
     ok = ok && column_.allocate(2 * static_cast<std::size_t>(canvas_.blocks_x())) &&
          row_.allocate(16 * static_cast<std::size_t>(canvas_.tiles_y));
@@ -139,7 +139,6 @@ class Renderer {
       column_[static_cast<std::size_t>(c)] = static_cast<std::uint32_t>((c >> 1) * 64 + (c & 1) * 16);
     canvas_.column = column_.data(), canvas_.row = row_.data();
     if (depth_) std::fill(canvas_.block_far + blocks, canvas_.block_far + blocks + beyond, 0.0f);
-    if (depth_) std::fill(canvas_.tile_far + blocks / 64, canvas_.tile_far + blocks / 64 + 8, 0.0f);
     return true;
   }
 
@@ -255,7 +254,8 @@ class Renderer {
     std::fill(canvas_.untouched + begin, canvas_.untouched + end, std::uint8_t{1});
     if (!depth_) return;
     std::fill(canvas_.block_far + begin * 64, canvas_.block_far + end * 64, kInfinity);
-    std::fill(canvas_.tile_far + begin, canvas_.tile_far + end, kInfinity);
+    const int y = band * kTileSize;
+    std::fill(canvas_.tile_far + canvas_.far_of(0, y), canvas_.tile_far + canvas_.far_of(0, y + kTileSize), kInfinity);
   }
 
   // The empty image, in one tile.

@@ -53,7 +53,7 @@ corpus::Scene random_scene(const Category& category, std::uint64_t seed, const S
 corpus::Scene mixed_scene(const Category& category, std::uint64_t seed, int max_size, int max_triangles);
 
 // Attributes of triangles all over each other, several to a row of pixels: arrays of every size, values of every amount.
-// Some lie far from the screen's origin, with W of all sizes, where edges have errors, each its own.
+// Some are thin ones along rows, far from the screen's origin, with W of all sizes: edges have errors, each its own.
 corpus::Scene attribute_scene(Random& random);
 
 }  // namespace surefill::properties

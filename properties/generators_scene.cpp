@@ -240,7 +240,7 @@ Scene mixed_scene(const Category& category, std::uint64_t seed, int max_size, in
 
 Scene attribute_scene(Random& random) {
   Scene scene;
-  const bool far = random.one_in(5);
+  const bool far = random.one_in(3);
   scene.width = far ? random.between(1000, 4000) : random.between(1, 90);
   scene.height = random.between(1, far ? 2 : 40);
   if (random.one_in(4) && !far) scene.samples = 1 << random.between(1, 4);
@@ -249,7 +249,7 @@ Scene attribute_scene(Random& random) {
     scene.attributes.push_back(
         {std::string(1, static_cast<char>('a' + n)), 1 + random.below(4), static_cast<Interpolation>(random.below(3))});
   scene.draws.resize(1 + random.below(4));
-  const int amount = random.one_in(3) ? random.between(-140, 120) : 0, size = far ? random.between(-30, 30) : 0;
+  const int amount = far || random.one_in(3) ? random.between(-149, 120) : 0, size = far ? random.between(-30, 30) : 0;
   for (corpus::SceneDraw& draw : scene.draws) {
     const int reach = 16 * random.between(1, far ? 400 : 20);
     const bool constant = random.one_in(4), perspective = random.one_in(2), fine = far || random.one_in(2);
@@ -257,15 +257,17 @@ Scene attribute_scene(Random& random) {
     if (random.one_in(6)) draw.depth_mode = static_cast<DepthMode>(random.below(3));
     for (std::uint32_t t = 0, count = random.below(40); t < count; ++t) {
       const int x = random.between(0, 16 * scene.width), y = random.between(0, 16 * scene.height);
+      const int thin = random.between(0, 24);
       for (int k = 0; k < 3; ++k) {
         float w = perspective ? static_cast<float>(random.between(random.one_in(16) ? -1 : 1, 8)) / 4 : 1.0f;
         if (far) w = std::ldexp(1 + static_cast<float>(random.unit()), random.between(-8, 8) + size);
-        const auto place = [&](int from, int by) {
-          const float at = static_cast<float>(from + random.between(-by, by)) / 16;
+        const auto place = [&](int from) {
+          const float at = static_cast<float>(from + random.between(-reach, reach)) / 16;
           return (fine ? at + static_cast<float>(random.unit()) : at) * w;
         };
-        draw.vertices.push_back(
-            {place(x, reach), place(y, far ? 64 : reach), static_cast<float>(random.between(0, 8)) / 8 * w, w, {}});
+        const float at_x = place(x), row = static_cast<float>(y >> 4) + 0.5f;
+        const float at_y = far ? (row + std::ldexp(static_cast<float>(2 * random.unit() - 1), -thin)) * w : place(y);
+        draw.vertices.push_back({at_x, at_y, static_cast<float>(random.between(0, 8)) / 8 * w, w, {}});
       }
       draw.triangles.push_back({{3 * t, 3 * t + 1, 3 * t + 2}, {}});
     }

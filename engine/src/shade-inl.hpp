@@ -268,8 +268,8 @@ class Shader {
         continue;
       }
       const bool noperspective = in.interpolation == Interpolation::noperspective;
-      Numerators sums;
-      for (std::size_t c = 0; c < 4; ++c) sums.value[c] = sums.error[c] = hn::Zero(d);
+      const Double none = hn::Zero(d);
+      Numerators sums{{none, none, none, none}, {none, none, none, none}};
       for (std::size_t k = 0; k < 3; ++k) {
         Corner u;
         if (out.components == 4) {

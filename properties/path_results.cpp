@@ -44,6 +44,7 @@ std::string broken_statistics(const Statistics& s, const Statistics& reference, 
   const bool plain = scene.samples == 1 && std::all_of(scene.draws.begin(), scene.draws.end(), [](const auto& draw) {
                        return !draw.grid && draw.conservative == Conservative::none;
                      });
+  if ((*s.path == '\0') != (*reference.path == '\0')) return "who drew it";
   if (s.triangles != reference.triangles) return "triangles";
   if (s.dropped + s.degenerate + s.culled + s.outside + s.rasterized != s.triangles)
     return "the sum of the first group";

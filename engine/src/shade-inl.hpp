@@ -296,7 +296,8 @@ class Shader {
     return {det, error};
   }
   static const float* ValuesOf(const AttributeArray& in, const Pixels& pixels, std::size_t lane, std::size_t k) {
-    return in.values.data() + pixels.indices[3 * lane + k] * (in.stride != 0 ? in.stride : in.components);
+    const std::size_t stride = in.stride != 0 ? in.stride : in.components;
+    return in.values.data() + pixels.indices[3 * lane + k] * stride;
   }
 
   // Numerators with error bounds over a denominator, rounded to float32: I4.

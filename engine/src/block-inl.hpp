@@ -121,12 +121,13 @@ class Rasterizer {
     }
     const double least = std::min(job_.sample.x, job_.sample.y), most = std::max(job_.sample.x, job_.sample.y);
     const PixelBox box = snapped.box(job_.region, least, most);
-    if (!box.empty()) TouchBox(box.x0, box.x1 - 1, box.y0, box.y1 - 1);
     for (int y = box.y0; y < box.y1; ++y) {
       if (!bands_.owns(y >> kTileLog2)) continue;
       for (int x = box.x0; x < box.x1; ++x) {
         const int facing = snapped.winding({x + job_.sample.x, y + job_.sample.y}, job_.shift);
-        if (facing != 0 && !Culls(facing)) writer_.SlowFragment(position, x, y);
+        if (facing == 0 || Culls(facing)) continue;
+        TouchTile(canvas_.tile_of(x, y));
+        writer_.SlowFragment(position, x, y);
       }
     }
   }
@@ -290,7 +291,7 @@ class Rasterizer {
     LoadPlane(plane, lane);
     const int first_x = batch_->first_x[lane] & ~(kTileSize - 1), first_y = batch_->first_y[lane] & ~(kTileSize - 1);
     const int last_x = batch_->last_x[lane] - (SUREFILL_PLANT(tile_border) ? 1 : 0), last_y = batch_->last_y[lane];
-    const double dip = kDepth ? Dip(plane, kTileSize - 1) - Slack(plane) : 0;
+    const double dip = kDepth ? Dip(plane, kTileSize - 1) : 0;
 
     const DoubleTag d;
     constexpr int kLanes = static_cast<int>(hn::MaxLanes(DoubleTag()));
@@ -450,7 +451,7 @@ class Rasterizer {
     const CellFloat df;
     const Parts x = Split(splitter, plane.z_x), y = Split(splitter, plane.z_y);
     const double error = hn::GetLane(splitter.Error(hn::Set(OneDouble(), plane.z_error)));
-    const bool zero = plane.z == 0 && plane.z_x == 0 && plane.z_y == 0 && plane.z_error == 0;
+    const bool zero = plane.z_error == 0;  // then depth is 0 everywhere (StoreDepth)
     for (std::size_t i = 0; i < 16; i += kCellLanes) {
       const auto step = LoadDepthSteps(0, i, x.high, y.high, x.low, y.low, zero ? 0.0f : static_cast<float>(error));
       hn::Store(hn::Mul(step.high, hn::Set(df, 4.0f)), df, cell_high_ + i);
@@ -639,15 +640,10 @@ class Rasterizer {
   }
 
   // ---- hierarchical z
-  // From the depth at a first sample to less than any within `reach` steps each way, errors included; the last term is
-  // for a first sample outside the triangle's box.
-  double Dip(const Plane& plane, double reach) const {
-    return std::min(0.0, reach * plane.z_x) + std::min(0.0, reach * plane.z_y) - plane.z_error -
-           0x1p-40 * reach * (std::fabs(plane.z_x) + std::fabs(plane.z_y));
-  }
-  // The same for the depth at a tile's first sample, wherever the triangle's origin is.
-  double Slack(const Plane& plane) const {
-    return 0x1p-40 * (std::fabs(plane.z) + (std::fabs(plane.z_x) + std::fabs(plane.z_y)) * kMaxTargetSize);
+  // From the depth at a first sample to less than any within `reach` steps each way. z_error has room for the rounding
+  // of this, too, and of what it is added to (docs/precision.md).
+  static double Dip(const Plane& plane, double reach) {
+    return std::min(0.0, reach * plane.z_x) + std::min(0.0, reach * plane.z_y) - plane.z_error;
   }
 
   HWY_INLINE void UpdateBlockFar(std::size_t block) {

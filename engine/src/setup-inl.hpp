@@ -336,8 +336,7 @@ HWY_NOINLINE FoundLanes Build(const DrawJob& job, const BandSet& bands, const Ba
   }
 
   found.finite &= all;
-  found.reached &= job.region.empty() ? 0 : found.finite;
-  found.degenerate &= found.reached;
+  found.reached &= found.finite;
   if (draw.cull != Cull::none) {
     const std::uint32_t front = draw.front_face == FrontFace::clockwise ? ~batch.negative : batch.negative;
     found.culled = (draw.cull == Cull::front ? front : ~front) & found.reached & ~found.degenerate;

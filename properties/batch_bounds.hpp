@@ -36,27 +36,42 @@ class BatchBounds {
   std::string broken() {
     const auto all = categories();
     const Category& category = all[random_.below(static_cast<std::uint32_t>(all.size()))];
-    constexpr int kSizes[] = {4, 16, 60, 200, 1000, kMaxTargetSize};
-    int size = kSizes[random_.below(6)];
+    constexpr int kSizes[] = {4, 16, 20, 60, 200, 1000, kMaxTargetSize};
+    int size = kSizes[random_.below(7)];
     const std::uint32_t count = 1 + random_.below(fast::kBatch);
     std::vector<Vertex> vertices;
     std::vector<std::uint32_t> indices;
     const bool uneven = random_.one_in(4);
-    if (random_.one_in(3))
+    if (random_.one_in(2))
       draw_.grid = Grid{random_.between(0, 12), random_.between(0, 15), random_.between(0, 15),
                         static_cast<GridRounding>(random_.below(3))};
-    const bool thin = draw_.grid && random_.one_in(3), crossing = !thin && random_.one_in(6);
+    const bool thin = draw_.grid && !random_.one_in(4), crossing = !thin && random_.one_in(6);
+    const bool flat = !thin && random_.one_in(8), diagonal = !thin && random_.one_in(4);
     const int x = random_.between(0, kMaxTargetSize - 4), y = random_.between(0, kMaxTargetSize - 4);
     if (thin) draw_.grid->bits = random_.between(10, 12);
-    if (thin && random_.one_in(2)) size = kMaxTargetSize;
+    if ((thin && random_.one_in(2)) || diagonal) size = kMaxTargetSize;
     for (std::uint32_t t = 0; t < count; ++t) {
       for (const Vertex& v : thin       ? thin_triangle()
                              : crossing ? crossing_triangle(x, y)
+                             : flat     ? flat_triangle(size)
+                             : diagonal ? diagonal_triangle()
                              : uneven   ? uneven_triangle()
                                         : category.triangle(random_, size, size)) {
         indices.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back(v);
       }
+    }
+    if (random_.one_in(24)) {  // one number infinite, of whatever signs the others are
+      const auto number = [&] {
+        Vertex& v = vertices[random_.below(static_cast<std::uint32_t>(vertices.size()))];
+        float* const numbers[] = {&v.x, &v.y, &v.z, &v.w};
+        return numbers[random_.below(4)];
+      };
+      for (std::uint32_t n = 0; n < 6 * count; ++n) {
+        float* const turned = number();
+        *turned = -*turned;
+      }
+      *number() = random_.one_in(2) ? kInfinity : -kInfinity;
     }
     if (random_.one_in(8)) {  // on the border of the guard band
       Vertex& v = vertices[random_.below(static_cast<std::uint32_t>(vertices.size()))];
@@ -138,6 +153,35 @@ class BatchBounds {
     for (Vertex& v : made) {
       v = {number(-2, 14), number(-2, 14), number(0, 3), random_.one_in(3) ? number(1, 3) : 1.0f};
       if (random_.one_in(16)) v.w = random_.one_in(2) ? 0.0f : -0.0f;
+    }
+    return made;
+  }
+  // With next to no area: two corners on a line through samples, the third far away in the line's direction; of any
+  // depth. No double, or just a double, tells the sign of D.
+  std::array<Vertex, 3> flat_triangle(int size) {
+    const auto any_depth = [&] {
+      return std::ldexp(static_cast<float>(2 * random_.unit() - 1), random_.one_in(2) ? random_.between(60, 126) : 0);
+    };
+    const float x = static_cast<float>(random_.between(0, size - 1)) + 0.5f,
+                y = static_cast<float>(random_.between(0, size - 1)) + 0.5f;
+    const auto dx = static_cast<float>(random_.between(-3, 3)), dy = static_cast<float>(random_.between(-3, 3));
+    const auto back = static_cast<float>(-random_.between(0, 300)), ahead = static_cast<float>(random_.between(1, 300));
+    const float far = static_cast<float>(2 * random_.unit() - 1) * std::ldexp(1.0f, -random_.between(40, 60));
+    return {{{x + back * dx, y + back * dy, any_depth(), 1},
+             {x + ahead * dx, y + ahead * dy, any_depth(), 1},
+             {dx, dy, any_depth() * far, far}}};
+  }
+  // From beside the target's first sample down to the right, a few pixels wide: near the first sample its edges' terms
+  // are small, and the errors of their steps are what counts at the last.
+  std::array<Vertex, 3> diagonal_triangle() {
+    const double far_x = random_.between(4000, 30000), far_y = random_.between(4000, 30000);
+    const auto near = [&] { return 2 * random_.unit() - 1; };
+    const double corners[3][2] = {{near(), near()}, {far_x, far_y}, {far_x + 20 * near(), far_y + 20 * near()}};
+    std::array<Vertex, 3> made;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double w = std::ldexp(1 + random_.unit(), random_.between(-12, 12));
+      made[k] = {static_cast<float>(corners[k][0] * w), static_cast<float>(corners[k][1] * w),
+                 static_cast<float>(near() * w), static_cast<float>(w)};
     }
     return made;
   }
@@ -572,7 +616,8 @@ class BatchBounds {
     expect(determinant != 0, "without D, no depth is known");
     if (!broken_.empty()) return;
     const double z = batch_.z[lane], zx = batch_.z_x[lane], zy = batch_.z_y[lane], error = batch_.z_error[lane];
-    expect(error >= 0 && error < 0x1p1000, "there is an error bound of depth");
+    expect(error >= 0, "there is an error bound of depth");
+    expect(std::fabs(z) + error < 1e37, "what is known of depth has a float32");
     if (!broken_.empty()) return;
     for_some_samples([&](int x, int y) {
       mpq_class real = sum_of(triangle_.exact_depth_numerator(at(x, y))) / determinant;

@@ -11,10 +11,9 @@
 #include <vector>
 
 #include "properties/compare.hpp"
-#include "properties/generators.hpp"
+#include "properties/path_cases_parts.hpp"
 
 namespace surefill::properties {
-namespace {
 
 corpus::Outputs random_outputs(const corpus::Scene& scene, Random& random) {
   corpus::Outputs outputs = outputs_of(scene);
@@ -28,6 +27,8 @@ corpus::Outputs random_outputs(const corpus::Scene& scene, Random& random) {
 int random_threads(Random& random) {
   return random.one_in(4) ? random.between(2, 3) : 1;
 }
+
+namespace {
 
 // Identifiers that several triangles have: the positions decide (V2, M5).
 void share_identifiers(corpus::Scene& scene, Random& random) {
@@ -46,6 +47,7 @@ PathScene random_case(std::uint64_t number, int size, int triangles) {
   made.in_place = random.one_in(2), made.executor = random.one_in(4), made.streams = random.one_in(3);
   if (random.one_in(8)) share_identifiers(made.scene, random);
   made.alone = made.threads > 1 && random.one_in(4);
+  if (random.one_in(64)) made.outputs = {false, false, false, false, false};  // statistics alone
   corpus::SceneDraw& draw = made.scene.draws[random.below(static_cast<std::uint32_t>(made.scene.draws.size()))];
   if (!made.scene.attributes.empty() && !draw.vertices.empty() && random.one_in(12)) {  // of any vertex (B1)
     auto& values = draw.vertices[random.below(static_cast<std::uint32_t>(draw.vertices.size()))].attributes;
@@ -86,7 +88,8 @@ void add_culling_box(corpus::SceneDraw& draw, Random& random) {
   }
 }
 
-// State that all frames of the two kinds below may have.
+}  // namespace
+
 void add_state(corpus::Scene& scene, Random& random) {
   if (random.one_in(3)) scene.depth_test = DepthTest::greater;
   if (random.one_in(4)) scene.samples = 1 << random.between(1, 2);
@@ -123,6 +126,8 @@ void append(corpus::SceneDraw& draw, const Vertex (&vertices)[3]) {
   for (const Vertex& v : vertices) draw.vertices.push_back({v.x, v.y, v.z, v.w, {}});
   draw.triangles.push_back({{first, first + 1, first + 2}, {}});
 }
+
+namespace {
 
 // More small triangles than are set up at a time, on few depths, so that many tie.
 PathScene crowd_case(std::uint64_t number) {
@@ -216,53 +221,9 @@ PathScene fine_case(std::uint64_t number) {
   return made;
 }
 
-// Planes over whole tiles, parallel or crossing, as near to each other as float32 depths can be, about a depth of any
-// size or about 0: what hierarchical z may hide and what not is a matter of the last bit.
-PathScene layers_case(std::uint64_t number) {
-  Random random(number);
-  PathScene made;
-  corpus::Scene& scene = made.scene;
-  scene.width = random.between(64, 260), scene.height = random.between(64, 200);
-  scene.draws.resize(1 + random.below(2));
-  const double base = random.one_in(2) ? 0.5 : static_cast<double>(random.below(2));
-  const int finest = base == 0 ? 60 : 26;
-  const auto small = [&](int most) {
-    return std::ldexp(static_cast<double>(random.between(-most, most)), -random.between(4, finest));
-  };
-  const double dx = random.one_in(4) ? 0 : small(4), dy = random.one_in(4) ? 0 : small(4);
-  const double step = random.one_in(4) ? 0 : small(2), tilt = random.one_in(3) ? 0 : 1;
-  double z = base;
-  for (corpus::SceneDraw& draw : scene.draws) {
-    for (std::uint32_t t = 0, count = 2 + random.below(12); t < count; ++t) {
-      // Most cover whole tiles; some begin within the image.
-      const double x = random.between(-300, 200), y = random.between(-300, 200), size = random.between(30, 1500);
-      const double corners[3][2] = {
-          {x, y}, {x + size, y + random.between(-40, 40)}, {x + random.between(-40, 40), y + size}};
-      const double turn_x = dx + tilt * small(3), turn_y = dy + tilt * small(3);
-      Vertex v[3];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const double w = random.one_in(16) ? 2 : 1;
-        const double depth = z + turn_x * (corners[k][0] - 64) + turn_y * (corners[k][1] - 64);
-        v[k] = {static_cast<float>(corners[k][0] * w), static_cast<float>(corners[k][1] * w),
-                static_cast<float>(depth * w), static_cast<float>(w)};
-      }
-      append(draw, v);
-      z += step;
-    }
-  }
-  add_state(scene, random);
-  if (!random.one_in(4)) scene.initial_depth.clear();
-  for (corpus::SceneDraw& draw : scene.draws)
-    if (!random.one_in(4)) draw.cull = Cull::none, draw.depth_write = true, draw.scissor.reset();
-  made.outputs = random_outputs(scene, random);
-  if (!random.one_in(8)) made.outputs.count = false;  // nothing is hidden where fragments count
-  if (!made.outputs.index && !made.outputs.barycentrics) made.outputs.depth = true;
-  made.threads = random_threads(random), made.executor = random.one_in(4);
-  return made;
-}
-
 // Grid, on slivers that reach behind the eye or beyond the guard band: polygons of several corners, which a coarse grid
-// folds. On targets of whole tiles, so that their last tiles have no neighbours.
+// folds; and on triangles that reach beyond it on all sides, of which six corners or seven are left. On targets of
+// whole tiles, so that their last tiles have no neighbours.
 PathScene clipped_case(std::uint64_t number) {
   Random random(number);
   PathScene made;
@@ -271,13 +232,21 @@ PathScene clipped_case(std::uint64_t number) {
   scene.draws.resize(1);
   corpus::SceneDraw& draw = scene.draws[0];
   const auto on_screen = [&](int size) { return static_cast<float>(random.between(0, 4 * size)) / 4; };
-  for (std::uint32_t t = 0, count = 1 + random.below(3); t < count; ++t) {
+  for (std::uint32_t t = 0, count = 1 + random.below(5); t < count; ++t) {
     const float x = on_screen(scene.width), y = on_screen(scene.height);
     const float near_x = x + static_cast<float>(random.between(-8, 8)) / 4,
                 near_y = y + static_cast<float>(random.between(-8, 8)) / 4;
     // Far away, or behind the eye, where the direction is the opposite one.
     const float far_x = static_cast<float>(random.between(-60, 60)) * 1024,
                 far_y = static_cast<float>(random.between(-60, 60)) * 1024;
+    if (random.one_in(3)) {
+      Vertex v[3];
+      for (Vertex& vertex : v)
+        vertex = {static_cast<float>(random.between(-90, 90)) * 1024,
+                  static_cast<float>(random.between(-90, 90)) * 1024, static_cast<float>(random.between(0, 8)) / 8, 1};
+      append(draw, v);
+      continue;
+    }
     const float w = random.one_in(2) ? 1.0f : -static_cast<float>(random.below(3)) / 64;
     const Vertex v[3] = {
         {x, y, 0.25f, 1}, {near_x, near_y, 0.5f, 1}, {far_x, far_y, static_cast<float>(random.below(2)) / 2, w}};
@@ -432,6 +401,75 @@ PathScene shaded_case(std::uint64_t number) {
   return made;
 }
 
+// Edges so far away, and so steep, that their integers are the largest there are.
+PathScene vast_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = random.between(1, 140), scene.height = random.between(1, 140);
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  for (std::uint32_t t = 0, count = 1 + random.below(12); t < count; ++t) {
+    // Its longest side runs along a diagonal, far beyond the image, or through it.
+    const double size = std::ldexp(1.75 + random.unit() / 4, random.between(9, 24)),
+                 away = random.one_in(4) ? 0 : size / 4;
+    const double turn_x = random.one_in(2) ? 1 : -1, turn_y = random.one_in(2) ? 1 : -1;
+    const auto near = [&] { return (2 * random.unit() - 1) * size / 64; };
+    const double corners[3][2] = {
+        {-size - away + near(), size - away}, {size - away, -size - away + near()}, {size, size}};
+    Vertex v[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      v[k] = {static_cast<float>(turn_x * corners[k][0]), static_cast<float>(turn_y * corners[k][1]), 0.5f, 1};
+    if (random.one_in(2)) std::swap(v[0], v[1]);
+    append(draw, v);
+  }
+  made.outputs = random_outputs(scene, random);
+  if (random.one_in(2)) made.outputs = {true, false, false, false, false};
+  return made;
+}
+
+// Corners at samples, or an ulp beside, with a W far larger than the others': there the denominator of an attribute is
+// the sum of a small number and of two that are 0 but for the rounding of large terms, and where the corner's value
+// alone is not 0 the numerator has a small error.
+PathScene pinned_case(std::uint64_t number) {
+  Random random(number);
+  PathScene made;
+  corpus::Scene& scene = made.scene;
+  scene.width = random.between(1, 24), scene.height = random.between(1, 24);
+  scene.attributes.push_back({"u", 1 + random.below(4), static_cast<Interpolation>(random.below(2))});
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  draw.fill_rule = static_cast<FillRule>(random.below(8));
+  for (std::uint32_t t = 0, count = 1 + random.below(8); t < count; ++t) {  // each before the last one
+    const float at[2] = {static_cast<float>(random.between(0, scene.width - 1)) + 0.5f,
+                         static_cast<float>(random.between(0, scene.height - 1)) + 0.5f};
+    const int size = random.between(-30, 30), apart = random.one_in(2) ? 2 : 12;
+    const std::size_t pinned = random.below(3);
+    const auto first = static_cast<std::uint32_t>(draw.vertices.size());
+    for (std::size_t k = 0; k < 3; ++k) {
+      const bool here = k == pinned;
+      const float w =
+          here ? std::ldexp(1.0f, size + (random.one_in(2) ? random.between(10, 50) : random.between(48, 80)))
+               : std::ldexp(1 + static_cast<float>(random.unit()), size + random.between(-apart, apart));
+      const auto place = [&](std::size_t axis) {
+        if (here) return at[axis] * w * (random.one_in(8) ? 1 + 0x1p-23f : 1.0f);
+        const int towards_0 = random.one_in(3) ? 0 : -random.between(8, 50);
+        return std::ldexp(static_cast<float>(2 * random.unit() - 0.5) * 60 * w, towards_0);
+      };
+      const float x = place(0), y = place(1);
+      draw.vertices.push_back({x, y, w / static_cast<float>(2 + t), w, {}});
+    }
+    for (std::uint32_t c = 0; c < scene.attributes[0].components; ++c) {
+      const int exponent = random.one_in(2) ? -149 : random.between(-149, 100);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto value = static_cast<float>(random.one_in(2) ? 1 : random.between(-3, 3));
+        draw.vertices[first + k].attributes.push_back(k == pinned ? std::ldexp(value, exponent) : 0);
+      }
+    }
+    draw.triangles.push_back({{first, first + 1, first + 2}, {}});
+  }
+  made.outputs = random_outputs(scene, random), made.outputs.attributes = true;
+  return made;
+}
+
 // Draws whose culling boxes are made of their own vertices, wherever these lie: beside the borders of the image or of a
 // scissor, partly behind the eye, where depth is clipped, moved by a coarse grid; or in part behind what other draws
 // have covered, by next to nothing. And boxes that are to be ignored, for a number that is none.
@@ -521,10 +559,15 @@ constexpr PathCases kCases[] = {
     {"fine", "fine meshes of triangles with at most 2 x 2 samples, and larger ones among them", 600, fine_case},
     {"halfway", "values halfway between two float32, but for what a double cannot hold", 3000, halfway_case},
     {"shaded", "attributes of every kind, several triangles to a row of pixels", 300, shaded_case},
+    {"vast", "edges so far away that their integers are the largest", 300, vast_case},
+    {"pinned", "attributes at corners whose W is far larger than the others'", 1000, pinned_case},
     {"boxed", "draws in culling boxes, beside borders, behind the eye or behind other draws", 1000, boxed_case},
     {"clipped", "slivers that Grid clips and folds", 300, clipped_case},
     {"snapped", "edges on samples of a fine grid, and a step beside them", 1000, snapped_case},
     {"axes", "corners on the axes of the image, or next to nothing beside them", 1000, axes_case},
+    {"cusps", "planes whose least depth, next to 0, is at a tile's corner sample", 150, cusps_case},
+    {"flat", "triangles with next to no area along rows of samples", 300, flat_case},
+    {"steep", "steep triangles that a coarse grid moves", 200, steep_case},
     {"layers", "planes over whole tiles, as near to each other as hierarchical z can tell", 150, layers_case},
 };
 

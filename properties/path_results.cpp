@@ -165,6 +165,7 @@ PathResult draw_path(const PathScene& of, const Options& with) {
         if (within) ++to.counts[static_cast<std::size_t>((y * to.width + x) * to.samples + b.sample)];
         if (!within) ++to.counts[0];  // what cannot be
       }
+      if (b.mask == 0) ++to.counts[0];
     }
   };
   Statistics statistics;

@@ -25,15 +25,22 @@ struct Left {
   Value value;
 };
 
-#define SUREFILL_MUTANT_OPERATOR(op, instead)                                                \
-  template <class Value, unsigned N>                                                         \
-  Left<Value, N> operator op(Value value, Marked<N>) {                                       \
-    return {value};                                                                          \
-  }                                                                                          \
-  template <class Value, unsigned N, class Right>                                            \
-  auto operator op(Left<Value, N> left, Right right) {                                       \
-    using Result = decltype(left.value op right);                                            \
-    return alive<N>() ? static_cast<Result>(left.value instead right) : left.value op right; \
+// An address before a table is one that the compiler must not think impossible.
+template <class Value>
+Value hidden(Value value) {
+  if constexpr (std::is_pointer_v<Value>) asm volatile("" : "+r"(value));
+  return value;
+}
+
+#define SUREFILL_MUTANT_OPERATOR(op, instead)                                                        \
+  template <class Value, unsigned N>                                                                 \
+  Left<Value, N> operator op(Value value, Marked<N>) {                                               \
+    return {value};                                                                                  \
+  }                                                                                                  \
+  template <class Value, unsigned N, class Right>                                                    \
+  auto operator op(Left<Value, N> left, Right right) {                                               \
+    using Result = decltype(left.value op right);                                                    \
+    return alive<N>() ? hidden(static_cast<Result>(left.value instead right)) : left.value op right; \
   }
 
 SUREFILL_MUTANT_OPERATOR(+, -)

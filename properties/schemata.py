@@ -332,7 +332,7 @@ def run_path(path, arguments):
     dead = sum(map(killed, mine))
     equal = sum(not killed(n) and everyone[n - 1].name in explained for n in mine)
     survivors = len(mine) - dead - equal
-    sampled = f" (sampled from {len(in_program)}: every vector operation, each {arguments.every}th of the others)" if arguments.every > 1 else ""
+    sampled = f" (sampled from {len(in_program)}: 1 of {arguments.every}, vector operations all)" if arguments.every > 1 else ""
     print(f"{path.name} path: {len(mine)} mutants{sampled}, {dead} killed, {equal} explained as equivalent, "
           f"{survivors} unexplained survivors", flush=True)
     return 1 if survivors or wrong else 0

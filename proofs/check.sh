@@ -13,7 +13,7 @@ fail() { printf 'proofs: %s\n' "$*" >&2; exit 1; }
 coq() { nice timeout 600 coqc -q -Q . Surefill "$1" >"${1%.v}.log" 2>&1 || { cat "${1%.v}.log" >&2; fail "$1 does not compile"; }; }
 
 # In the order in which they need each other.
-theories="definitions coverage degree"
+theories="definitions coverage degree rounding values visibility"
 
 # Nothing is taken for granted: these words never stand outside comments.
 for theory in $theories; do

@@ -265,14 +265,16 @@ Proof.
     replace ((2 ^ 23 + (m - 2 ^ 23)) * 2 ^ (s + 1 - 1)) with a
       by (rewrite Em; replace (s + 1 - 1) with s by ring; ring). now rewrite K.
 Qed.
+Lemma some_injective (x y : Z) : Some x = Some y -> x = y.
+Proof. congruence. Qed.
 Theorem decode_representable b k : decode b = Some k -> representable k.
 Proof.
   unfold decode. pose proof (Z.mod_pos_bound (b / 2 ^ 23) (2 ^ 8) ltac:(lia)). pose proof (Z.mod_pos_bound b (2 ^ 23) ltac:(lia)).
   set (e := (b / 2 ^ 23) mod 2 ^ 8) in *. set (m := b mod 2 ^ 23) in *. clearbody e m.
-  destruct (Z.eqb_spec e 255); [discriminate|]. injection 1 as <-.
+  destruct (Z.eqb_spec e 255); [discriminate|]. intros E. apply some_injective in E. subst k.
   assert (R : representable (if e =? 0 then m else (2 ^ 23 + m) * 2 ^ (e - 1))).
   { destruct (Z.eqb_spec e 0).
-    - exists m, 0. repeat split; try lia.
-    - exists (2 ^ 23 + m), (e - 1). repeat split; try lia. }
+    - exists m, 0. split; [lia|]. split; [lia|]. ring.
+    - exists (2 ^ 23 + m), (e - 1). split; [lia|]. split; [lia|]. reflexivity. }
   destruct (b <? 2 ^ 31); [exact R|now apply representable_opp].
 Qed.

@@ -272,6 +272,9 @@ Definition read_vertex (v : option viewport) (numbers : list Z) : option vertex 
       end
   | _ => None
   end.
+(* V2. *)
+Definition index_of (identifier : option Z) (first_index position : Z) : Z :=
+  match identifier with Some i => i | None => first_index + position end.
 (* B1: a triangle with such a vertex is dropped; the others keep their positions. *)
 Definition read_triangle (a b c : option vertex) (index position : Z) : option triangle :=
   match a, b, c with Some a, Some b, Some c => Some (Triangle a b c index position) | _, _, _ => None end.

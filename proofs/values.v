@@ -147,3 +147,24 @@ Qed.
 (* With one sample a pixel it is the sample itself. *)
 Theorem M1_one_sample centroid r t i j : covers r t (centre i j) = true -> value_place centroid 1 r t i j = centre i j.
 Proof. intros C. unfold value_place. rewrite C, orb_true_r. reflexivity. Qed.
+
+(* --------------------------------------------------------------------------------------------------- S3: range *)
+
+(* What S3 stores is a float32, the nearest one; a float32 is kept, the largest too. *)
+Theorem S3_nearest n d k : 0 < d -> nearest_ieee n d = Some k -> representable k /\ k = nearest n d.
+Proof.
+  intros Hd. unfold nearest_ieee. destruct (_ <? _); [discriminate|]. injection 1 as <-.
+  split; [now apply nearest_correct|reflexivity].
+Qed.
+Theorem S3_exact k d : 0 < d -> representable k -> nearest_ieee (k * d) d = Some k.
+Proof.
+  intros Hd R. unfold nearest_ieee. rewrite (nearest_exact k d Hd R).
+  destruct (Z.ltb_spec largest (nearest_unbounded (Z.abs (k * d)) d)) as [L|]; [exfalso|reflexivity].
+  (* Else the unbounded one would be farther from |k| than |k| itself. *)
+  assert (A : Z.abs (k * d) = Z.abs k * d) by (rewrite Z.abs_mul, (Z.abs_eq d); lia).
+  destruct (unbounded_form (Z.abs (k * d)) d ltac:(lia) Hd) as (m & s & _ & _ & E & _ & N).
+  rewrite E in L. pose proof (representable_bound k R) as B.
+  assert (R' : representable (Z.abs k)) by (destruct (Z.abs_spec k) as [[_ ->]|[_ ->]]; [exact R|now apply representable_opp]).
+  destruct (N (Z.abs k) (representable_like _ R')) as [X _]. rewrite A in X.
+  replace (Z.abs k * d - d * Z.abs k) with 0 in X by ring. assert (d * (m * 2 ^ s) = d * Z.abs k) by lia. nia.
+Qed.

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "certify/mesh.hpp"
+#include "corpus/mesh.hpp"
 
 namespace surefill::bench {
 namespace {

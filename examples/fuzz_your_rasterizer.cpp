@@ -5,7 +5,7 @@
 // behind the eye.
 #include "fuzz/finding.hpp"
 #include "fuzz/mutate.hpp"
-#include "properties/compare.hpp"
+#include "properties/machinery/compare.hpp"
 
 namespace {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/adapters/wire.hpp"
+#include "certify/rivals/wire.hpp"
 #include "fuzz/decode.hpp"
 #include "fuzz/finding.hpp"
 

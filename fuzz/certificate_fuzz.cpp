@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "certify/certificate.hpp"
+#include "certify/report/certificate.hpp"
 #include "fuzz/finding.hpp"
 
 namespace surefill::fuzz {

@@ -11,8 +11,8 @@
 
 #include "fuzz/finding.hpp"
 #include "fuzz/mutate.hpp"
-#include "properties/check.hpp"
-#include "properties/meshes.hpp"
+#include "properties/generators/meshes.hpp"
+#include "properties/machinery/check.hpp"
 
 namespace surefill::fuzz {
 namespace {

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include "properties/near_zero.hpp"
+#include "properties/generators/near_zero.hpp"
 
 // libFuzzer's own mutator; AFL++ has none.
 extern "C" [[gnu::weak]] std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);

@@ -11,7 +11,7 @@
 
 #include "corpus/scene.hpp"
 #include "fuzz/decode.hpp"
-#include "properties/generators.hpp"
+#include "properties/generators/generators.hpp"
 
 namespace surefill::fuzz {
 

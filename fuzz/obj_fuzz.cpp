@@ -9,11 +9,11 @@
 #include <string>
 #include <string_view>
 
-#include "certify/mesh.hpp"
+#include "corpus/mesh.hpp"
 #include "fuzz/finding.hpp"
 #include "oracle/oracle.hpp"
-#include "properties/check.hpp"
-#include "properties/compare.hpp"
+#include "properties/machinery/check.hpp"
+#include "properties/machinery/compare.hpp"
 
 namespace surefill::fuzz {
 namespace {

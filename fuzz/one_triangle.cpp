@@ -10,7 +10,7 @@
 #include "fuzz/finding.hpp"
 #include "fuzz/gmp_memory.hpp"
 #include "oracle/oracle.hpp"
-#include "properties/compare.hpp"
+#include "properties/machinery/compare.hpp"
 
 namespace surefill::fuzz {
 namespace {

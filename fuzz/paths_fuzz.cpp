@@ -16,7 +16,7 @@
 
 #include "fuzz/finding.hpp"
 #include "fuzz/mutate.hpp"
-#include "properties/compare.hpp"
+#include "properties/machinery/compare.hpp"
 
 namespace surefill::fuzz {
 namespace {

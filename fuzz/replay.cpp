@@ -18,7 +18,7 @@
 #include <system_error>
 #include <vector>
 
-#include "properties/generators.hpp"
+#include "properties/generators/generators.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 extern "C" [[gnu::weak]] std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,

@@ -11,7 +11,7 @@
 #include "fuzz/finding.hpp"
 #include "fuzz/mutate.hpp"
 #include "oracle/oracle.hpp"
-#include "properties/compare.hpp"
+#include "properties/machinery/compare.hpp"
 
 namespace surefill::fuzz {
 namespace {

@@ -14,7 +14,7 @@
 #include <string_view>
 
 #include "fuzz/decode.hpp"
-#include "properties/generators.hpp"
+#include "properties/generators/generators.hpp"
 
 namespace surefill::fuzz {
 namespace {

@@ -15,8 +15,8 @@
 #include <cstdint>
 #include <span>
 
-#include "bounds.hpp"
-#include "edge.hpp"
+#include "exact/bounds.hpp"
+#include "exact/edge.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::fast {

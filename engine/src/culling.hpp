@@ -11,8 +11,8 @@
 #include <cmath>
 #include <limits>
 
-#include "bounds.hpp"
 #include "canvas.hpp"
+#include "exact/bounds.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::fast {

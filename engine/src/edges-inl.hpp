@@ -12,7 +12,7 @@
 #include <cstring>
 
 #include "canvas.hpp"
-#include "exact_draw.hpp"
+#include "exact/exact_draw.hpp"
 #include "hwy/highway.h"
 #include "planted.hpp"
 

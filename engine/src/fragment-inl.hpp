@@ -11,7 +11,7 @@
 #endif
 
 #include "cell-inl.hpp"
-#include "exact_draw.hpp"
+#include "exact/exact_draw.hpp"
 #include "planted.hpp"
 #include "setup-inl.hpp"
 

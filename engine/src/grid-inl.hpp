@@ -11,7 +11,7 @@
 #endif
 
 #include "edges-inl.hpp"
-#include "grid.hpp"
+#include "exact/grid.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {

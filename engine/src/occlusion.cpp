@@ -11,7 +11,7 @@
 #include <new>
 #include <utility>
 
-#include "bounds.hpp"
+#include "exact/bounds.hpp"
 #include "float_environment.hpp"
 
 namespace surefill {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Faults planted on purpose, to measure how soon the fuzzers find each (fuzz/time_to_find.py). They exist only in a
+// Faults planted on purpose, to measure how soon the fuzzers find each (mutation/time_to_find.py). They exist only in a
 // build with SUREFILL_PLANTED, where SUREFILL_PLANT=NAME in the environment wakes one. Without it every
 // SUREFILL_PLANT(name) is the constant false, and the compiler leaves nothing of it.
 #ifndef SUREFILL_SRC_PLANTED_HPP

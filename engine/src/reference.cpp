@@ -8,11 +8,11 @@
 #include <memory>
 #include <new>
 
-#include "bounds.hpp"
-#include "conservative.hpp"
-#include "grid.hpp"
+#include "exact/bounds.hpp"
+#include "exact/conservative.hpp"
+#include "exact/grid.hpp"
+#include "exact/triangle.hpp"
 #include "planted.hpp"
-#include "triangle.hpp"
 
 namespace surefill::reference {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "exact.hpp"
+#include "exact/exact.hpp"
 #include "float_environment.hpp"
 #include "planted.hpp"
 #include "surefill/surefill.hpp"

@@ -1,0 +1,155 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Surefill's engine behind the adapter header, and the ways in which a plugin can go wrong, by the arguments that it is
+// opened with: the tests of certify. Without arguments it is the right rasterizer, with every feature and the profile
+// exact.
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "certify/adapter.h"
+#include "certify/rivals/plugin_frame.hpp"
+#include "surefill/surefill.hpp"
+
+namespace {
+
+using namespace surefill;
+
+struct Instance {
+  std::string fault, error;
+  std::uint64_t draws = 0;
+};
+
+std::string open_error;
+
+// Faults that show on some scenes only, so that there is something to reduce.
+bool has_steep_edge(const surefill_adapter_scene& scene) {
+  for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
+    const surefill_adapter_draw& draw = scene.draws[d];
+    for (std::uint32_t i = 0; i < 3 * draw.triangle_count; ++i) {
+      const float* v = draw.pixel + 4 * std::size_t{draw.indices[i]};
+      if (v[0] > 4 * v[3] && v[3] > 0) return true;
+    }
+  }
+  return false;
+}
+
+// The fault on this scene, before anything is drawn.
+int fault_before(Instance& instance, const surefill_adapter_scene& scene, const surefill_adapter_image& image,
+                 std::size_t total) {
+  const std::string& fault = instance.fault;
+  if (fault == "crash") {
+    volatile std::size_t nowhere = 16;
+    *reinterpret_cast<volatile int*>(std::size_t{nowhere}) = 1;
+  }
+  if (fault == "abort") std::abort();
+  if (fault == "exit") std::exit(3);
+  if (fault == "hang") {
+    for (;;) ::sleep(1);
+  }
+  if (fault == "fail") {
+    instance.error = "out of coffee";
+    return SUREFILL_ADAPTER_FAILED;
+  }
+  if (fault == "overrun" && image.count) image.count[total] = 1;
+  if (fault == "underrun" && image.count) image.count[-1] = 1;
+  if (fault == "scribble" && scene.draw_count > 0) const_cast<float*>(scene.draws[0].pixel)[0] = 1;
+  return SUREFILL_ADAPTER_OK;
+}
+
+// The vertices of a draw by way of clip space; a rasterizer that has not read the header gets it wrong.
+std::vector<Vertex> from_clip_space(const surefill_adapter_draw& from, const std::string& fault) {
+  Viewport viewport;
+  viewport.x = from.viewport_x;
+  viewport.y = from.viewport_y;
+  viewport.width = from.viewport_width;
+  viewport.height = from.viewport_height;
+  viewport.near_depth = from.viewport_near;
+  viewport.far_depth = from.viewport_far;
+  viewport.clip_depth = static_cast<ClipDepth>(from.viewport_depth_range);
+  if (fault == "clip-y-down") viewport.clip_y = ClipY::down;
+  if (fault == "clip-depth-unmapped") viewport.clip_depth = ClipDepth::zero_to_one;
+  std::vector<Vertex> vertices(from.vertex_count);
+  (void)to_pixel(viewport, {reinterpret_cast<const ClipVertex*>(from.clip), from.vertex_count}, vertices);
+  return vertices;
+}
+
+int draw(void* handle, const surefill_adapter_scene* scene, const surefill_adapter_image* image) {
+  auto& instance = *static_cast<Instance*>(handle);
+  const std::size_t total = std::size_t{scene->width} * scene->height * scene->samples;
+  const bool shows = has_steep_edge(*scene);
+  if (shows) {
+    if (const int status = fault_before(instance, *scene, *image, total)) return status;
+  }
+  adapters::PluginFrame frame(*scene, *image);
+  std::vector<std::vector<Vertex>> mapped;
+  for (std::uint32_t d = 0; d < scene->draw_count && instance.fault.rfind("clip", 0) == 0; ++d) {
+    mapped.push_back(from_clip_space(scene->draws[d], instance.fault));
+    frame.draws()[d].vertices = mapped.back();
+    frame.draws()[d].culling_box.reset();
+  }
+  if (instance.fault == "unwritten") frame.target().depth = {};
+  if (instance.fault == "chatter") std::puts("drawing");
+  const Status status = render(frame.target(), frame.draws());
+  if (instance.fault == "nan" && shows && image->depth) image->depth[0] = std::numeric_limits<float>::quiet_NaN();
+  if (instance.fault == "forgetful" && image->count && ++instance.draws % 7 == 0) image->count[0] += 1;
+  if (status == Status::ok) return SUREFILL_ADAPTER_OK;
+  instance.error = status_text(status);
+  return SUREFILL_ADAPTER_FAILED;
+}
+
+int open_adapter(const char* arguments, surefill_adapter_info* info, void** handle) {
+  const std::string fault = arguments;
+  if (fault == "no-open") {
+    open_error = "no device";
+    return SUREFILL_ADAPTER_FAILED;
+  }
+  if (fault == "not-here") {
+    open_error = "no such device on this machine";
+    return SUREFILL_ADAPTER_UNSUPPORTED;
+  }
+  if (fault == "exit-on-open") std::exit(5);
+  std::snprintf(info->name, sizeof info->name, "%s", fault == "no-name" ? "" : "surefill");
+  std::snprintf(info->version, sizeof info->version, "%s", SUREFILL_VERSION);
+  info->outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH |
+                  SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;
+  if (fault == "no-count") info->outputs &= ~static_cast<std::uint32_t>(SUREFILL_ADAPTER_COUNT);
+  if (fault == "bad-outputs") info->outputs = 1u << 20;
+  info->features = adapters::kAllFeatures;
+  info->model.kind = SUREFILL_ADAPTER_MODEL_EXACT;
+  if (fault.rfind("clip", 0) == 0) info->form = SUREFILL_ADAPTER_FORM_CLIP;
+  if (fault == "clip-minus-one" || fault == "clip-depth-unmapped") {
+    info->model.depth_range = SUREFILL_ADAPTER_MINUS_ONE_TO_ONE;
+  }
+  if (fault == "wrong-model") {
+    info->model.kind = SUREFILL_ADAPTER_MODEL_GRID;
+    info->model.grid_bits = 8;
+  }
+  info->model.profile = SUREFILL_ADAPTER_PROFILE_EXACT;
+  if (fault == "reports-vulkan" || fault == "reports-opengl") {
+    info->model.kind = SUREFILL_ADAPTER_MODEL_UNKNOWN;
+    info->model.grid_bits = 8;
+    info->model.profile = fault == "reports-vulkan" ? SUREFILL_ADAPTER_PROFILE_VULKAN : SUREFILL_ADAPTER_PROFILE_OPENGL;
+  }
+  *handle = new Instance{fault, "", 0};
+  return SUREFILL_ADAPTER_OK;
+}
+
+void close_adapter(void* handle) {
+  delete static_cast<Instance*>(handle);
+}
+
+const char* error_text(void* handle) {
+  return handle ? static_cast<Instance*>(handle)->error.c_str() : open_error.c_str();
+}
+
+}  // namespace
+
+extern "C" const surefill_adapter_api* surefill_adapter_entry(std::uint32_t version) {
+  static constexpr surefill_adapter_api kApi{SUREFILL_ADAPTER_VERSION, open_adapter, draw, close_adapter, error_text};
+  return version == SUREFILL_ADAPTER_VERSION ? &kApi : nullptr;
+}

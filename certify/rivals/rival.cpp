@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/rivals/rival.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "certify/rivals/frame.hpp"
+#include "oracle/oracle.hpp"
+
+namespace surefill::adapters {
+
+namespace {
+
+constexpr int kMostTimeOuts = 10;
+constexpr std::size_t kMostAlone = 200;  // triangles that are drawn alone to find counts
+
+std::string cause_of(const Answer& answer) {
+  const std::string text = text_of(answer.words);
+  return text.empty() ? "no reason given" : text;
+}
+
+// Numbers that the header does not allow: a rival that says such things is not asked further.
+void check_info(const surefill_adapter_info& info) {
+  const surefill_adapter_model& model = info.model;
+  const auto refuse = [](const std::string& what) {
+    throw RivalFailure("the rasterizer describes itself wrongly: " + what);
+  };
+  if ((info.outputs & ~kAllOutputs) != 0) refuse("an output that there is not");
+  if ((info.outputs & (SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH)) == 0) {
+    refuse("it has none of the outputs count, index and depth");
+  }
+  if (info.features >> 19 != 0) refuse("a feature that there is not");
+  if (info.form > SUREFILL_ADAPTER_FORM_CLIP) refuse("a form that there is not");
+  if (model.kind > SUREFILL_ADAPTER_MODEL_GRID) refuse("a model that there is not");
+  if (model.grid_bits > 12 || model.grid_offset_x > 15 || model.grid_offset_y > 15 || model.grid_rounding > 2) {
+    refuse("a grid that there is not");
+  }
+  if (model.fill_rule > 7) refuse("a fill rule that there is not");
+  if (model.profile > SUREFILL_ADAPTER_PROFILE_OPENGL) refuse("a profile that there is not");
+  if (model.y > SUREFILL_ADAPTER_Y_UNKNOWN || model.depth_range > SUREFILL_ADAPTER_DEPTH_RANGE_UNKNOWN) {
+    refuse("a convention that there is not");
+  }
+  if (info.max_components > kMaxComponents) refuse("more components than an attribute has");
+  if (std::memchr(info.name, 0, sizeof info.name) == nullptr || info.name[0] == '\0') refuse("it has no name");
+  if (std::memchr(info.version, 0, sizeof info.version) == nullptr) refuse("its version has no end");
+}
+
+template <typename Value>
+void turn_rows(std::span<Value> values, int height) {
+  const std::size_t rows = static_cast<std::size_t>(height), row = values.size() / rows;
+  for (std::size_t y = 0; y < rows / 2; ++y) {
+    std::swap_ranges(values.begin() + static_cast<std::ptrdiff_t>(y * row),
+                     values.begin() + static_cast<std::ptrdiff_t>((y + 1) * row),
+                     values.begin() + static_cast<std::ptrdiff_t>((rows - 1 - y) * row));
+  }
+}
+
+// The target with only the outputs of the mask.
+Target with_outputs(Target target, std::uint32_t outputs) {
+  if (!(outputs & SUREFILL_ADAPTER_COUNT)) target.count = {};
+  if (!(outputs & SUREFILL_ADAPTER_INDEX)) target.index = {};
+  if (!(outputs & SUREFILL_ADAPTER_DEPTH)) target.depth = {};
+  if (!(outputs & SUREFILL_ADAPTER_BARYCENTRICS)) target.barycentrics = {};
+  if (!(outputs & SUREFILL_ADAPTER_ATTRIBUTES)) target.attributes = {};
+  return target;
+}
+
+// The adapter shows a rival the attributes that are asked for; B1 drops triangles for the others, too.
+void skip_unseen_attributes(std::span<const Draw> draws, std::size_t seen) {
+  for (const Draw& draw : draws) {
+    for (std::size_t k = seen; k < draw.attributes.size(); ++k) {
+      const std::span<const float> values = draw.attributes[k].values;
+      if (!std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); })) {
+        throw RivalSkips("attributes with a NaN or an infinity that are not asked for");
+      }
+    }
+  }
+}
+
+bool asks_for_nothing(const Target& target) {
+  return target.count.empty() && target.index.empty() && target.depth.empty() && target.barycentrics.empty() &&
+         target.attributes.empty();
+}
+
+}  // namespace
+
+Rival::Rival(RivalOptions options) : options_(std::move(options)) {
+  auto process = std::make_unique<Process>(options_.command);
+  Words body{SUREFILL_ADAPTER_VERSION};
+  const Words arguments = text_words(options_.arguments);
+  body.insert(body.end(), arguments.begin(), arguments.end());
+  // Starting an interpreter or a device takes longer than a scene.
+  const Answer answer = process->ask(kOpen, body, kInfoWords, options_.time_limit * 4);
+  if (!answer.failure.empty()) throw RivalFailure("on being opened, " + answer.failure);
+  if (answer.status == SUREFILL_ADAPTER_UNSUPPORTED) throw RivalSkips(cause_of(answer));
+  if (answer.status != SUREFILL_ADAPTER_OK) throw RivalFailure("the rasterizer cannot be opened: " + cause_of(answer));
+  if (answer.words.size() != kInfoWords) {
+    throw RivalFailure(
+        fmt::format("the rasterizer describes itself in {} words instead of {}", answer.words.size(), kInfoWords));
+  }
+  std::memcpy(&info_, answer.words.data(), sizeof info_);
+  check_info(info_);
+  if (info_.model.y == SUREFILL_ADAPTER_Y_UNKNOWN) info_.model.y = SUREFILL_ADAPTER_Y_DOWN;
+  if (info_.model.depth_range == SUREFILL_ADAPTER_DEPTH_RANGE_UNKNOWN) {
+    info_.model.depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE;
+  }
+  idle_.push_back(std::move(process));
+}
+
+bool Rival::given_up() const {
+  return timeouts_ >= kMostTimeOuts;
+}
+
+std::unique_ptr<Process> Rival::take() {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!idle_.empty()) {
+      std::unique_ptr<Process> process = std::move(idle_.back());
+      idle_.pop_back();
+      return process;
+    }
+  }
+  auto process = std::make_unique<Process>(options_.command);
+  Words body{SUREFILL_ADAPTER_VERSION};
+  const Words arguments = text_words(options_.arguments);
+  body.insert(body.end(), arguments.begin(), arguments.end());
+  const Answer answer = process->ask(kOpen, body, kInfoWords, options_.time_limit * 4);
+  if (!answer.failure.empty()) throw RivalFailure("on being opened again, " + answer.failure);
+  if (answer.status != SUREFILL_ADAPTER_OK) {
+    throw RivalFailure("the rasterizer cannot be opened again: " + cause_of(answer));
+  }
+  return process;
+}
+
+void Rival::draw_once(Target target, std::span<const Draw> draws) {
+  if (given_up()) throw RivalSkips(fmt::format("{} scenes before this one had no answer in time", kMostTimeOuts));
+  // Without draws there is no array that says how many components an attribute has; the empty image is +0 (V1).
+  if (draws.empty()) {
+    for (const AttributeTarget& attribute : target.attributes) {
+      std::fill(attribute.values.begin(), attribute.values.end(), 0.0f);
+    }
+    target.attributes = {};
+    if (asks_for_nothing(target)) return;
+  }
+  std::vector<float> initial_depth(target.initial_depth.begin(), target.initial_depth.end());
+  const bool up = info_.model.y == SUREFILL_ADAPTER_Y_UP;
+  if (up && !initial_depth.empty()) turn_rows(std::span<float>(initial_depth), target.height);
+  target.initial_depth = initial_depth;
+  AdapterFrame frame(target, draws, clip_form(info_));
+  const std::vector<OutputBuffer> outputs = output_buffers(frame.scene(), frame.image());
+  std::size_t due = 0;
+  for (const OutputBuffer& output : outputs) due += output.size;
+
+  std::unique_ptr<Process> process = take();
+  const Answer answer = process->ask(kDraw, scene_words(frame.scene(), frame.image()), due, options_.time_limit);
+  if (answer.timed_out) ++timeouts_;
+  if (!answer.failure.empty()) throw RivalFailure(answer.failure);
+  {
+    const std::lock_guard lock(mutex_);
+    idle_.push_back(std::move(process));
+  }
+  if (answer.status == SUREFILL_ADAPTER_UNSUPPORTED) throw RivalSkips(cause_of(answer));
+  if (answer.status != SUREFILL_ADAPTER_OK) throw RivalFailure("the rasterizer failed: " + cause_of(answer));
+  if (answer.words.size() != due) {
+    throw RivalFailure(fmt::format("the rasterizer answered {} words where {} are due", answer.words.size(), due));
+  }
+  const std::uint32_t* words = answer.words.data();
+  for (const OutputBuffer& output : outputs) {
+    std::memcpy(output.words, words, output.size * 4);
+    words += output.size;
+  }
+  if (!up) return;
+  turn_rows(target.count, target.height);
+  turn_rows(target.index, target.height);
+  turn_rows(target.depth, target.height);
+  turn_rows(target.barycentrics, target.height);
+  for (const AttributeTarget& attribute : target.attributes) turn_rows(attribute.values, target.height);
+}
+
+void Rival::add_up_counts(const Target& target, std::span<const Draw> draws) {
+  skip_unseen_attributes(draws, 0);  // drawn alone they have no attributes
+  const std::size_t total = sample_total(target);
+  std::fill(target.count.begin(), target.count.end(), 0u);
+  const bool by_index = (info_.outputs & SUREFILL_ADAPTER_INDEX) != 0;
+  std::vector<std::uint32_t> index(by_index ? total : 0);
+  std::vector<float> depth(by_index ? 0 : total);
+  Target alone = with_outputs(target, 0);
+  alone.initial_depth = {};  // covers count whatever their depth (M2)
+  alone.index = index;
+  alone.depth = depth;
+  const float empty = (target.depth_test == DepthTest::greater ? -1.0f : 1.0f) * std::numeric_limits<float>::infinity();
+  for (const Draw& draw : draws) {
+    for (std::size_t t = 0; 3 * t < draw.indices.size(); ++t) {
+      Draw one = draw;
+      one.indices = draw.indices.subspan(3 * t, 3);
+      one.identifiers = {};
+      one.first_index = 0;
+      draw_once(alone, {&one, 1});
+      for (std::size_t s = 0; s < total; ++s) {
+        if (by_index ? index[s] != kNoTriangle : depth[s] != empty) ++target.count[s];
+      }
+    }
+  }
+}
+
+void Rival::draw(const Target& target, std::span<const Draw> draws) {
+  const std::vector<Draw> under = under_model(draws, info_);
+  const std::string lacking = what_is_lacking(target, under, info_);
+  if (!lacking.empty()) throw RivalSkips(lacking);
+  const Target asked = with_outputs(target, info_.outputs);
+  skip_unseen_attributes(under, asked.attributes.size());
+  const bool conservative =
+      std::any_of(under.begin(), under.end(), [](const Draw& draw) { return draw.conservative != Conservative::none; });
+  std::size_t triangles = 0;
+  for (const Draw& draw : under) triangles += draw.indices.size() / 3;
+  if (asked.count.empty() && !target.count.empty() && triangles > kMostAlone) {
+    throw RivalSkips("so many triangles without a count");
+  }
+  if (conservative && asked.count.empty()) throw RivalSkips("conservative rasterization has counts alone (M4)");
+  if (!asks_for_nothing(asked)) draw_once(asked, under);
+  if (!target.count.empty() && asked.count.empty()) add_up_counts(target, under);
+}
+
+properties::Renderer rival_renderer(Rival& rival, std::uint32_t judged) {
+  return [&rival, judged](const Target& target, std::span<const Draw> draws) {
+    if (const Status status = validate(target, draws); status != Status::ok) return status;
+    std::uint32_t own = rival.info().outputs & judged;
+    if (judged & SUREFILL_ADAPTER_COUNT) own |= SUREFILL_ADAPTER_COUNT;  // made up where it is missing
+    const Target theirs = with_outputs(target, own), rest = with_outputs(target, kAllOutputs & ~own);
+    // First, so that a frame that is skipped costs no oracle.
+    rival.draw(theirs, draws);
+    if (!asks_for_nothing(rest)) oracle::render(rest, under_model(draws, rival.info()));
+    return Status::ok;
+  };
+}
+
+properties::Renderer model_renderer(const Rival& rival) {
+  return [&rival](const Target& target, std::span<const Draw> draws) {
+    if (const Status status = validate(target, draws); status != Status::ok) return status;
+    oracle::render(target, under_model(draws, rival.info()));
+    return Status::ok;
+  };
+}
+
+corpus::Scene scene_under_model(corpus::Scene scene, const surefill_adapter_info& info) {
+  for (corpus::SceneDraw& draw : scene.draws) {
+    Draw plain;
+    plain.fill_rule = draw.fill_rule;
+    plain.grid = draw.grid;
+    plain.conservative = draw.conservative;
+    const std::vector<Draw> under = under_model({&plain, 1}, info);
+    draw.fill_rule = under[0].fill_rule;
+    draw.grid = under[0].grid;
+  }
+  return scene;
+}
+
+}  // namespace surefill::adapters

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A rasterizer under test: somebody's, behind an adapter, in processes of its own.
+#ifndef SUREFILL_CERTIFY_ADAPTERS_RIVAL_HPP
+#define SUREFILL_CERTIFY_ADAPTERS_RIVAL_HPP
+
+#include <atomic>
+#include <chrono>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "certify/adapter.h"
+#include "certify/rivals/process.hpp"
+#include "properties/machinery/compare.hpp"
+#include "surefill/surefill.hpp"
+
+namespace surefill::adapters {
+
+// The rival did what no rasterizer may: crashed, hung, ended, answered nonsense. what() is one line: a finding.
+class RivalFailure : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+// This frame is none for this rival: it lacks a feature, or says so. No finding.
+class RivalSkips : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+struct RivalOptions {
+  std::vector<std::string> command;            // program and its arguments
+  std::string arguments;                       // for open
+  std::chrono::milliseconds time_limit{5000};  // for one scene
+};
+
+// Outputs of a rival that a judge looks at, as bits of the adapter.
+inline constexpr std::uint32_t kAllOutputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH |
+                                             SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;
+
+// Thread-safe, but for `set_model`: each thread that draws has a process of its own for as long as it does.
+class Rival {
+ public:
+  // Starts a process and asks who it is. Throws RivalFailure, RivalSkips where it says that there is nothing to judge
+  // (a driver that is not there), and std::runtime_error where nothing can be started.
+  explicit Rival(RivalOptions options);
+  Rival(const Rival&) = delete;
+  Rival& operator=(const Rival&) = delete;
+
+  const surefill_adapter_info& info() const { return info_; }
+  void set_model(const surefill_adapter_model& model) { info_.model = model; }
+
+  // Draws the frame, under the model, into those buffers of the target that the rival has; leaves the others as they
+  // are. Where it has no count, each triangle is drawn alone and the covers are added up. Throws RivalFailure,
+  // RivalSkips.
+  void draw(const Target& target, std::span<const Draw> draws);
+
+  // After a few scenes without an answer in time, no more time is spent: every draw is skipped at once.
+  bool given_up() const;
+
+ private:
+  std::unique_ptr<Process> take();
+  void draw_once(Target target, std::span<const Draw> draws);
+  void add_up_counts(const Target& target, std::span<const Draw> draws);
+
+  RivalOptions options_;
+  surefill_adapter_info info_{};
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Process>> idle_;
+  std::atomic<int> timeouts_ = 0;
+};
+
+// The rival as a renderer. Outputs that it lacks, or that are not among `judged`, are the oracle's under the rival's
+// model, so that what compares images looks at the rival's part alone. Throws as Rival::draw.
+properties::Renderer rival_renderer(Rival& rival, std::uint32_t judged = kAllOutputs);
+
+// The oracle under the rival's model, in every draw.
+properties::Renderer model_renderer(const Rival& rival);
+
+// The scene with the rival's model in every draw, so that it needs no rival to be understood.
+corpus::Scene scene_under_model(corpus::Scene scene, const surefill_adapter_info& info);
+
+}  // namespace surefill::adapters
+
+#endif  // SUREFILL_CERTIFY_ADAPTERS_RIVAL_HPP

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/rivals/wire.hpp"
+
+#include <cstring>
+
+#include "surefill/surefill.hpp"
+
+namespace surefill::adapters {
+
+namespace {
+
+std::uint32_t bits(float value) {
+  return std::bit_cast<std::uint32_t>(value);
+}
+
+void append(Words& words, const void* data, std::size_t count) {
+  if (count == 0) return;
+  const std::size_t at = words.size();
+  words.resize(at + count);
+  std::memcpy(words.data() + at, data, count * 4);
+}
+
+// Takes words off the front; once they run out, `ok` is false and everything is 0 and null.
+class Reader {
+ public:
+  explicit Reader(std::span<const std::uint32_t> words) : rest_(words) {}
+
+  std::uint32_t word() {
+    const std::uint32_t* at = take(1);
+    return at ? *at : 0;
+  }
+  float number() { return std::bit_cast<float>(word()); }
+  const std::uint32_t* take(std::uint64_t count) {
+    if (count > rest_.size()) {
+      ok_ = false;
+      return nullptr;
+    }
+    const std::uint32_t* at = rest_.data();
+    rest_ = rest_.subspan(static_cast<std::size_t>(count));
+    return at;
+  }
+  // float and uint32_t alike lie in the message as words; memory from mmap or a vector is aligned for both.
+  const float* numbers(std::uint64_t count) { return reinterpret_cast<const float*>(take(count)); }
+  bool ok() const { return ok_; }
+  bool at_end() const { return ok_ && rest_.empty(); }
+
+ private:
+  std::span<const std::uint32_t> rest_;
+  bool ok_ = true;
+};
+
+// Sizes as S5 and attributes as the adapter has them: then no number of samples or values overflows.
+bool sizes_in_range(const surefill_adapter_scene& scene) {
+  constexpr std::uint32_t kMostSamples = 16;
+  const auto side_ok = [](std::uint32_t side) { return side >= 1 && side <= std::uint32_t{kMaxTargetSize}; };
+  return side_ok(scene.width) && side_ok(scene.height) && scene.samples >= 1 && scene.samples <= kMostSamples;
+}
+
+// Precondition: sizes_in_range, which holds for every scene of certify and is asked of every message.
+std::size_t total_samples(const surefill_adapter_scene& scene) {
+  return std::size_t{scene.width} * scene.height * scene.samples;
+}
+
+}  // namespace
+
+Words text_words(std::string_view text) {
+  Words words((text.size() + 3) / 4, 0);
+  if (!text.empty()) std::memcpy(words.data(), text.data(), text.size());
+  return words;
+}
+
+std::string text_of(std::span<const std::uint32_t> words) {
+  std::string text(words.size() * 4, '\0');
+  if (!words.empty()) std::memcpy(text.data(), words.data(), text.size());
+  text.resize(text.find('\0') == std::string::npos ? text.size() : text.find('\0'));
+  return text;
+}
+
+Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_image& image) {
+  std::uint32_t outputs = 0;
+  if (image.count) outputs |= SUREFILL_ADAPTER_COUNT;
+  if (image.index) outputs |= SUREFILL_ADAPTER_INDEX;
+  if (image.depth) outputs |= SUREFILL_ADAPTER_DEPTH;
+  if (image.barycentrics) outputs |= SUREFILL_ADAPTER_BARYCENTRICS;
+  if (image.attributes) outputs |= SUREFILL_ADAPTER_ATTRIBUTES;
+  Words words{outputs,
+              scene.width,
+              scene.height,
+              scene.samples,
+              scene.depth_test,
+              scene.attribute_location,
+              scene.attribute_count,
+              scene.draw_count,
+              scene.initial_depth ? 1u : 0u};
+  for (std::uint32_t k = 0; k < scene.attribute_count; ++k) {
+    words.push_back(scene.draw_count > 0 ? scene.draws[0].attributes[k].components : 1);
+  }
+  if (scene.initial_depth) append(words, scene.initial_depth, total_samples(scene));
+  for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
+    const surefill_adapter_draw& draw = scene.draws[d];
+    const auto signed_word = [](std::int32_t value) { return static_cast<std::uint32_t>(value); };
+    words.insert(words.end(), {draw.vertex_count,
+                               draw.triangle_count,
+                               draw.clip_is_exact,
+                               bits(draw.viewport_x),
+                               bits(draw.viewport_y),
+                               bits(draw.viewport_width),
+                               bits(draw.viewport_height),
+                               bits(draw.viewport_near),
+                               bits(draw.viewport_far),
+                               draw.viewport_depth_range,
+                               draw.fill_rule,
+                               draw.front_face,
+                               draw.cull,
+                               draw.depth_mode,
+                               draw.depth_write,
+                               draw.conservative,
+                               draw.has_scissor,
+                               signed_word(draw.scissor[0]),
+                               signed_word(draw.scissor[1]),
+                               signed_word(draw.scissor[2]),
+                               signed_word(draw.scissor[3]),
+                               draw.has_grid,
+                               draw.grid_bits,
+                               draw.grid_rounding,
+                               draw.grid_offset_x,
+                               draw.grid_offset_y});
+    const std::size_t vertices = draw.vertex_count, triangles = draw.triangle_count;
+    append(words, draw.pixel, 4 * vertices);
+    append(words, draw.clip, 4 * vertices);
+    append(words, draw.indices, 3 * triangles);
+    append(words, draw.identifiers, triangles);
+    for (std::uint32_t k = 0; k < scene.attribute_count; ++k) {
+      words.push_back(draw.attributes[k].interpolation);
+      append(words, draw.attributes[k].values, vertices * draw.attributes[k].components);
+    }
+  }
+  return words;
+}
+
+bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result) {
+  Reader reader(words);
+  surefill_adapter_scene& scene = result.scene;
+  result.outputs = reader.word();
+  scene.width = reader.word();
+  scene.height = reader.word();
+  scene.samples = reader.word();
+  scene.depth_test = reader.word();
+  scene.attribute_location = reader.word();
+  scene.attribute_count = reader.word();
+  scene.draw_count = reader.word();
+  const bool has_initial_depth = reader.word() != 0;
+  // Each attribute and each draw takes a word at least, so that these numbers cannot ask for memory without end.
+  if (!reader.ok() || scene.attribute_count > words.size() || scene.draw_count > words.size()) return false;
+  if (!sizes_in_range(scene)) return false;
+  for (std::uint32_t k = 0; k < scene.attribute_count; ++k) {
+    const std::uint32_t components = reader.word();
+    if (components > kMaxComponents) return false;
+    result.components.push_back(components);
+  }
+  if (has_initial_depth) scene.initial_depth = reader.numbers(total_samples(scene));
+  result.draws.resize(scene.draw_count);
+  result.attributes.resize(scene.draw_count);
+  for (std::uint32_t d = 0; d < scene.draw_count && reader.ok(); ++d) {
+    surefill_adapter_draw& draw = result.draws[d];
+    draw.vertex_count = reader.word();
+    draw.triangle_count = reader.word();
+    draw.clip_is_exact = reader.word();
+    for (float* number : {&draw.viewport_x, &draw.viewport_y, &draw.viewport_width, &draw.viewport_height,
+                          &draw.viewport_near, &draw.viewport_far}) {
+      *number = reader.number();
+    }
+    for (std::uint32_t* word : {&draw.viewport_depth_range, &draw.fill_rule, &draw.front_face, &draw.cull,
+                                &draw.depth_mode, &draw.depth_write, &draw.conservative, &draw.has_scissor}) {
+      *word = reader.word();
+    }
+    for (std::int32_t& side : draw.scissor) side = static_cast<std::int32_t>(reader.word());
+    for (std::uint32_t* word :
+         {&draw.has_grid, &draw.grid_bits, &draw.grid_rounding, &draw.grid_offset_x, &draw.grid_offset_y}) {
+      *word = reader.word();
+    }
+    const std::uint64_t vertices = draw.vertex_count, triangles = draw.triangle_count;
+    draw.pixel = reader.numbers(4 * vertices);
+    draw.clip = reader.numbers(4 * vertices);
+    draw.indices = reader.take(3 * triangles);
+    draw.identifiers = reader.take(triangles);
+    for (std::uint32_t k = 0; k < scene.attribute_count && reader.ok(); ++k) {
+      surefill_adapter_attribute attribute{};
+      attribute.interpolation = reader.word();
+      attribute.components = result.components[k];
+      attribute.values = reader.numbers(vertices * attribute.components);
+      result.attributes[d].push_back(attribute);
+    }
+    draw.attributes = result.attributes[d].data();
+  }
+  scene.draws = result.draws.data();
+  return reader.at_end();
+}
+
+std::vector<OutputBuffer> output_buffers(const surefill_adapter_scene& scene, const surefill_adapter_image& image) {
+  const std::size_t total = total_samples(scene);
+  std::vector<OutputBuffer> buffers;
+  if (image.count) buffers.push_back({"count", image.count, total});
+  if (image.index) buffers.push_back({"index", image.index, total});
+  if (image.depth) buffers.push_back({"depth", image.depth, total});
+  if (image.barycentrics) buffers.push_back({"barycentrics", image.barycentrics, 3 * total});
+  for (std::uint32_t k = 0; image.attributes && k < scene.attribute_count; ++k) {
+    if (!image.attributes[k] || scene.draw_count == 0) continue;
+    buffers.push_back(
+        {"attribute " + std::to_string(k), image.attributes[k], scene.draws[0].attributes[k].components * total});
+  }
+  return buffers;
+}
+
+}  // namespace surefill::adapters

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a finding looks like, kept so that a picture of it can be drawn without the rasterizer.
+#ifndef SUREFILL_CERTIFY_EVIDENCE_HPP
+#define SUREFILL_CERTIFY_EVIDENCE_HPP
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "corpus/scene.hpp"
+#include "properties/machinery/compare.hpp"
+
+namespace surefill::certify {
+
+// Both answers in a window of the target, row by row, sample by sample.
+struct Evidence {
+  int x0 = 0, y0 = 0, width = 0, height = 0, samples = 1;  // nothing if width is 0
+  std::vector<std::uint32_t> expected, actual;  // coverage counts; `actual` is empty where there is no answer
+  std::vector<std::uint8_t> differs;            // 1 where the answers differ
+  std::string what;                             // the output in which they do
+};
+
+inline constexpr int kEvidenceSize = 48;  // pixels of a window each way, at most
+
+// Draws both. Where counts agree, it is the index that is compared, and where that agrees, the values: those of at
+// least half the largest error are marked.
+Evidence gather_evidence(const corpus::Scene& scene, const properties::Renderer& expected,
+                         const properties::Renderer& actual);
+
+}  // namespace surefill::certify
+
+#endif  // SUREFILL_CERTIFY_EVIDENCE_HPP

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/run/files.hpp"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace surefill::certify {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail(const std::string& path, int error) {
+  throw FileError(path + ": " + std::generic_category().message(error));
+}
+
+fs::path folder_of(const std::string& path) {
+  const fs::path folder = fs::path(path).parent_path();
+  return folder.empty() ? fs::path(".") : folder;
+}
+
+// Is there something at `path` that a rename would wrongly replace?
+bool is_special(const std::string& path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  return fs::exists(status) && !fs::is_regular_file(status);
+}
+
+// Writes all bytes; the error number or 0.
+int write_all(int descriptor, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t written = ::write(descriptor, bytes.data(), bytes.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    bytes.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+}  // namespace
+
+void check_folder(const std::string& path) {
+  std::error_code error;
+  if (!fs::exists(path, error)) fail(path, ENOENT);
+  if (!fs::is_directory(path, error)) fail(path, ENOTDIR);
+  if (::access(path.c_str(), W_OK | X_OK) != 0) fail(path, errno);
+}
+
+void check_writable(const std::string& path) {
+  if (path.empty()) throw FileError("an output file needs a name");
+  std::error_code error;
+  if (fs::is_directory(path, error)) fail(path, EISDIR);
+  if (is_special(path)) {
+    if (::access(path.c_str(), W_OK) != 0) fail(path, errno);
+    return;
+  }
+  const fs::path folder = folder_of(path);
+  if (!fs::exists(folder, error)) fail(path, ENOENT);
+  if (!fs::is_directory(folder, error)) fail(path, ENOTDIR);
+  if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(path, errno);
+}
+
+void write_file(const std::string& path, std::string_view bytes) {
+  check_writable(path);
+  if (is_special(path)) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) fail(path, errno);
+    const int error = write_all(descriptor, bytes);
+    if (::close(descriptor) != 0 || error != 0) fail(path, error != 0 ? error : errno);
+    return;
+  }
+  std::string temporary = path + ".XXXXXX";
+  const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
+  if (descriptor < 0) fail(path, errno);
+  int error = write_all(descriptor, bytes);
+  const mode_t mask = ::umask(0);  // mkstemp gives 0600; the file gets what any other new file would
+  ::umask(mask);
+  if (error == 0 && ::fchmod(descriptor, 0666 & ~mask) != 0) error = errno;
+  if (::close(descriptor) != 0 && error == 0) error = errno;
+  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error != 0) {
+    ::unlink(temporary.c_str());
+    fail(path, error);
+  }
+}
+
+std::string reserve_path(const std::string& directory, const std::string& stem, const std::string& extension) {
+  for (int number = 1;; ++number) {
+    std::string path = (fs::path(directory) / (stem + "-" + std::to_string(number) + extension)).string();
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor >= 0) {
+      ::close(descriptor);
+      return path;
+    }
+    if (errno != EEXIST) fail(path, errno);
+  }
+}
+
+std::string shell_word(const std::string& path) {
+  const bool plain =
+      path.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+-=@%,") ==
+      std::string::npos;
+  if (plain && !path.empty()) return path.front() == '-' ? "./" + path : path;
+  std::string result = "'";
+  for (const char c : path) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return result + "'";
+}
+
+}  // namespace surefill::certify

@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// certify on rasterizers of others: right ones pass, each wrong one is found, and no run is ended by what a rival does.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "corpus/scene.hpp"
+#include "properties/machinery/test_folder.hpp"
+
+namespace surefill {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Adapter : public InFolder {
+ protected:
+  // The exit status; what is printed is in `out`.
+  int run(const std::string& command) {
+    const std::string line = "cd '" + folder_.string() + "' && " + command + " >out.txt 2>err.txt";
+    const int status = std::system(line.c_str());
+    out = contents(folder_ / "out.txt") + contents(folder_ / "err.txt");
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 128;
+  }
+  int surefill(const std::string& arguments) { return run(SUREFILL_COMMAND " " + arguments); }
+  int zoo(const std::string& arguments) { return run(SUREFILL_ZOO_COMMAND " " + arguments); }
+  int certify(const std::string& arguments) { return surefill("certify --jobs 1 " + arguments); }
+  int certify_engine(const std::string& fault) {
+    return certify("--time-limit 0.5 --only 'alone,model' --plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments '" +
+                   fault + "'");
+  }
+  bool says(const std::string& text) const { return out.find(text) != std::string::npos; }
+
+  // The Python rival with one text in it replaced.
+  std::string python_with(const std::string& text, const std::string& fault) {
+    std::string program = contents(SUREFILL_PYTHON_RIVAL);
+    const std::size_t at = program.find(text);
+    EXPECT_NE(at, std::string::npos) << text;
+    if (at != std::string::npos) program.replace(at, text.size(), fault);
+    std::ofstream(folder_ / "rival.py") << program;
+    return "--command 'python3 rival.py'";
+  }
+
+  // The most triangles of any scene that was found by a check of this name.
+  std::size_t triangles_of(const std::string& name) const {
+    std::size_t triangles = 0;
+    const corpus::Scene scene = corpus::read_scene_file((folder_ / (name + "-1.scene")).string());
+    for (const corpus::SceneDraw& draw : scene.draws) triangles += draw.triangles.size();
+    return triangles;
+  }
+
+  std::string out;
+};
+
+TEST_F(Adapter, TheEngineBehindTheAdapterIsExact) {
+  EXPECT_EQ(certify_engine(""), 0) << out;
+  EXPECT_TRUE(says("probing finds exact")) << out;
+  EXPECT_EQ(certify_engine("chatter"), 0) << out;
+  EXPECT_EQ(certify_engine("no-count"), 0) << out;
+  EXPECT_EQ(certify("--plugin " SUREFILL_ENGINE_PLUGIN), 0) << out;
+}
+
+// A sample of the zoo through the public door; `surefill-zoo --plugin` does it for all.
+TEST_F(Adapter, TheZooIsTold) {
+  const std::string plugin = "--plugin " SUREFILL_ZOO_PLUGIN " ";
+  EXPECT_EQ(certify(plugin + "--plugin-arguments exact"), 0) << out;
+  EXPECT_EQ(certify(plugin + "--plugin-arguments edges-inclusive --only partition-quads"), 1) << out;
+  EXPECT_LE(triangles_of("partition-quads"), 2u);
+  EXPECT_EQ(certify(plugin + "--plugin-arguments unicorn"), 1) << out;
+  EXPECT_TRUE(says("the zoo has no rasterizer of this name: unicorn")) << out;
+  EXPECT_EQ(zoo("--jobs 1 " + plugin +
+                "--only 'behind-*,float-edges,affine,depth-one-ulp,later-wins,samples-alike,"
+                "grid-ignored,over-as-covered,box-culls,race'"),
+            0)
+      << out;
+  EXPECT_TRUE(says("11 of 11 specimens not certified, 0 of 0 right rasterizers certified")) << out;
+  EXPECT_EQ(zoo(plugin + "--only unicorn"), 2) << out;
+}
+
+TEST_F(Adapter, WhateverAPluginDoesIsAFinding) {
+  const std::pair<const char*, const char*> faults[] = {
+      {"crash", "ended by signal 11"},
+      {"abort", "ended by signal 6"},
+      {"hang", "gave no answer within 0.5 s"},
+      {"exit", "ended with status 3"},
+      {"fail", "out of coffee"},
+      {"overrun", "past the end of the buffer \"count\""},
+      {"underrun", "before the beginning of the buffer \"count\""},
+      {"scribble", "wrote to the scene"},
+      {"nan", "nan"},
+      {"unwritten", "depth"},
+      {"forgetful", "drawn twice"},
+      {"wrong-model", "it declares grid of 8 bits"},
+      {"no-open", "no device"},
+      {"exit-on-open", "ended with status 5"},
+      {"no-name", "it has no name"},
+      {"bad-outputs", "an output that there is not"},
+  };
+  for (const auto& [fault, finding] : faults) {
+    EXPECT_EQ(certify_engine(fault), 1) << fault << "\n" << out;
+    EXPECT_TRUE(says(finding)) << fault << "\n" << out;
+    EXPECT_TRUE(says("NOT CERTIFIED")) << fault << "\n" << out;
+  }
+}
+
+// The same of programs over a pipe.
+TEST_F(Adapter, WhateverAProgramDoesIsAFinding) {
+  for (const char* program : {"true", "yes", "head -c 100000 /dev/zero", "no-such-program"}) {
+    EXPECT_EQ(certify("--time-limit 0.1 --command '" + std::string(program) + "'"), 1) << program << "\n" << out;
+    EXPECT_TRUE(says("NOT CERTIFIED")) << program << "\n" << out;
+  }
+  const std::string answer = "answer = INFO if header[0] == 1 else draw(body)";
+  const std::pair<const char*, const char*> faults[] = {
+      {"; header[0] == 2 and body[4] > 9 and sys.exit(3)", "ended with status 3"},
+      {"; answer = answer[:-4] if header[0] == 2 else answer", "words where"},
+      {"; header[0] == 2 and body[4] > 9 and sys.stdin.read()", "gave no answer within 0.5 s"},
+  };
+  for (const auto& [fault, finding] : faults) {
+    EXPECT_EQ(certify("--time-limit 0.5 --only alone,model " + python_with(answer, answer + fault)), 1) << out;
+    EXPECT_TRUE(says(finding)) << fault << "\n" << out;
+    EXPECT_TRUE(says("NOT CERTIFIED")) << fault << "\n" << out;
+  }
+}
+
+// A rival that reads clip space and its viewport, in both depth ranges, and one that takes y for down.
+TEST_F(Adapter, ClipSpaceIsTold) {
+  const std::string engine = "--plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments ";
+  for (const char* form : {"clip", "clip-minus-one"}) {
+    EXPECT_EQ(certify(engine + form), 0) << form << "\n" << out;
+    EXPECT_EQ(out.find("skip  model-random"), std::string::npos) << out;
+  }
+  EXPECT_EQ(certify("--only 'model,values' " + engine + "clip-y-down"), 1) << out;
+  EXPECT_EQ(certify("--only values " + engine + "clip-depth-unmapped"), 1) << out;
+  EXPECT_LE(triangles_of("values"), 2u);
+}
+
+TEST_F(Adapter, AModelIsFound) {
+  EXPECT_EQ(certify("--plugin " SUREFILL_FIXED_POINT), 0) << out;
+  EXPECT_TRUE(says("probing finds grid of 8 bits, nearest-up, offset (0, 0), fill rule top-left")) << out;
+}
+
+TEST_F(Adapter, ReportedBitsAreHeldAgainstTheModel) {
+  const std::string engine = "--only precision --plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments ";
+  EXPECT_EQ(certify(engine + "reports-opengl"), 0) << out;
+  EXPECT_TRUE(says("the 8 bits of subpixel precision that it reports, or more")) << out;
+  EXPECT_EQ(certify(engine + "reports-vulkan"), 1) << out;
+  EXPECT_TRUE(says("probing finds exact")) << out;
+}
+
+TEST_F(Adapter, WhatIsNotHereIsNotJudged) {
+  EXPECT_EQ(certify_engine("not-here"), 2) << out;
+  EXPECT_TRUE(says("nothing to judge: no such device on this machine")) << out;
+  EXPECT_FALSE(says("CERTIFIED")) << out;
+}
+
+// Where it cracks: drivers_test.cpp, softpipe.
+TEST_F(Adapter, MeshesInPerspectiveTile) {
+  EXPECT_EQ(certify("--only mesh-perspective --plugin " SUREFILL_ENGINE_PLUGIN), 0) << out;
+  EXPECT_EQ(certify("--only mesh-perspective --plugin " SUREFILL_FIXED_POINT), 0) << out;
+}
+
+// Models that upright and level edges cannot tell apart: slanted ones can.
+TEST_F(Adapter, AlikeModelsAreToldApart) {
+  const std::pair<const char*, const char*> models[] = {
+      {"exact", "probing finds exact, fill rule top-left"},
+      {"grid-4-nearest-even-bottom-left",
+       "probing finds grid of 4 bits, nearest-even, offset (0, 0), fill rule bottom-l"},
+      {"grid-8-nearest-up-bottom-right",
+       "probing finds grid of 8 bits, nearest-up, offset (0, 0), fill rule bottom-righ"},
+      {"grid-8-truncate-bottom-right", "probing finds grid of 8 bits, truncate, offset (0, 0), fill rule bottom-right"},
+      {"grid-12-truncate-top-right", "probing finds grid of 12 bits, truncate, offset (0, 0), fill rule top-right"},
+  };
+  for (const auto& [name, found] : models) {
+    const std::string rival = "--only model --plugin " SUREFILL_ZOO_PLUGIN " --plugin-arguments ";
+    EXPECT_EQ(certify(rival + name), 0) << out;
+    EXPECT_EQ(certify(rival + "undeclared-" + name), 0) << out;
+    EXPECT_TRUE(says(found)) << out;
+  }
+}
+
+TEST_F(Adapter, FloatEdgesCrackWithoutTheCorpus) {
+  EXPECT_EQ(certify("--only 'partition-delaunay' --plugin " SUREFILL_FLOAT_EDGES), 1) << out;
+  EXPECT_TRUE(says("count of a tiling")) << out;
+  EXPECT_LE(triangles_of("partition-delaunay"), 2u);
+}
+
+TEST_F(Adapter, PlainPythonAndItsThreeFaults) {
+  EXPECT_EQ(certify("--command 'python3 " SUREFILL_PYTHON_RIVAL "'"), 0) << out;
+  EXPECT_EQ(certify("--only partition-quads " + python_with("e == 0 and (", "e == 0 or (")), 1) << out;
+  EXPECT_LE(triangles_of("partition-quads"), 2u);
+  EXPECT_EQ(certify("--only values " + python_with("[1, 1, 1])", "[p[3] for p in v])")), 1) << out;
+  EXPECT_LE(triangles_of("values"), 2u);
+  EXPECT_EQ(certify("--only clear-samples " + python_with("in clip(v)]", "in v if w]")), 1) << out;
+  EXPECT_LE(triangles_of("clear-samples"), 2u);
+}
+
+TEST_F(Adapter, ShardsMergeAndOthersDoNot) {
+  const std::string rival = "--only 'partition-*,alone' --plugin " SUREFILL_FLOAT_EDGES;
+  EXPECT_EQ(certify("--shard 1/2 --json a.json " + rival), 1) << out;
+  EXPECT_EQ(certify("--shard 2/2 --json b.json " + rival), 1) << out;
+  EXPECT_EQ(certify("--shard 2/2 --seed 2 --json c.json " + rival), 1) << out;
+  EXPECT_EQ(surefill("merge a.json b.json --html m.html --junit m.xml"), 1) << out;
+  EXPECT_TRUE(says("sampled 300 scenes")) << out;
+  EXPECT_NE(contents(folder_ / "m.html").find("<svg"), std::string::npos);
+  EXPECT_NE(contents(folder_ / "m.xml").find("<failure"), std::string::npos);
+  EXPECT_EQ(surefill("merge a.json"), 2);
+  EXPECT_TRUE(says("shard 2 of 2 is missing")) << out;
+  EXPECT_EQ(surefill("merge a.json a.json"), 2);
+  EXPECT_TRUE(says("twice")) << out;
+  EXPECT_EQ(surefill("merge a.json c.json"), 2);
+  EXPECT_TRUE(says("another seed")) << out;
+}
+
+TEST_F(Adapter, AnInterruptedRunGoesOn) {
+  const std::string run = "certify --jobs 1 --level standard --only random-ordinary --resume state.json --json ";
+  // On a busy machine the command may not have begun after a second: then it gets longer.
+  for (const char* seconds : {"1", "3", "9"}) {
+    const std::string interrupted = "cd '" + folder_.string() + "' && timeout -s INT " + seconds +
+                                    " " SUREFILL_COMMAND " " + run + "half.json >half.txt 2>&1";
+    const int status = std::system(interrupted.c_str());
+    ASSERT_TRUE(WIFEXITED(status));
+    if (fs::exists(folder_ / "state.json")) break;
+  }
+  ASSERT_TRUE(fs::exists(folder_ / "state.json"));
+  EXPECT_EQ(surefill(run + "whole.json"), 0) << out;
+  EXPECT_EQ(surefill("certify --jobs 1 --level standard --only random-ordinary --json once.json"), 0) << out;
+  const auto sums = [this](const char* file) {
+    std::istringstream lines(contents(folder_ / file));
+    std::string kept;
+    for (std::string line; std::getline(lines, line);) {
+      if (line.find("\"samples\"") != std::string::npos || line.find("\"done\"") != std::string::npos) kept += line;
+    }
+    return kept;
+  };
+  EXPECT_EQ(sums("whole.json"), sums("once.json"));
+  EXPECT_EQ(surefill("certify --seed 5 --level standard --only random-ordinary --resume state.json"), 2) << out;
+}
+
+}  // namespace
+}  // namespace surefill

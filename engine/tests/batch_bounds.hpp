@@ -1,0 +1,659 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a batch of the fast path promises those who draw it: boxes that hold all that is covered, integer edges that are
+// right where they are sure and exact where they can be, depth planes within their error bounds; under Grid, corners on
+// the grid. Checked by exact arithmetic, apart from any image: an image shows a bound that is too small at one sample
+// in millions, and one that is too large not at all.
+#ifndef SUREFILL_PROPERTIES_BATCH_BOUNDS_HPP
+#define SUREFILL_PROPERTIES_BATCH_BOUNDS_HPP
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "canvas.hpp"
+#include "exact/grid.hpp"
+#include "exact/triangle.hpp"
+#include "properties/generators/generators.hpp"
+#include "tiles.hpp"
+
+namespace surefill::properties {
+
+class BatchBounds {
+ public:
+  explicit BatchBounds(std::uint64_t number) : random_(number) {}
+
+  // What does not hold in this case; empty if all does.
+  std::string broken() {
+    const auto all = categories();
+    const Category& category = all[random_.below(static_cast<std::uint32_t>(all.size()))];
+    constexpr int kSizes[] = {4, 16, 20, 60, 200, 1000, kMaxTargetSize};
+    int size = kSizes[random_.below(7)];
+    const std::uint32_t count = 1 + random_.below(fast::kBatch);
+    std::vector<Vertex> vertices;
+    std::vector<std::uint32_t> indices;
+    const bool uneven = random_.one_in(4);
+    if (random_.one_in(2))
+      draw_.grid = Grid{random_.between(0, 12), random_.between(0, 15), random_.between(0, 15),
+                        static_cast<GridRounding>(random_.below(3))};
+    const bool thin = draw_.grid && !random_.one_in(4), crossing = !thin && random_.one_in(6);
+    const bool flat = !thin && random_.one_in(8), diagonal = !thin && random_.one_in(4);
+    const int x = random_.between(0, kMaxTargetSize - 4), y = random_.between(0, kMaxTargetSize - 4);
+    if (thin) draw_.grid->bits = random_.between(10, 12);
+    if ((thin && random_.one_in(2)) || diagonal) size = kMaxTargetSize;
+    for (std::uint32_t t = 0; t < count; ++t) {
+      for (const Vertex& v : thin       ? thin_triangle()
+                             : crossing ? crossing_triangle(x, y)
+                             : flat     ? flat_triangle(size)
+                             : diagonal ? diagonal_triangle()
+                             : uneven   ? uneven_triangle()
+                                        : category.triangle(random_, size, size)) {
+        indices.push_back(static_cast<std::uint32_t>(vertices.size()));
+        vertices.push_back(v);
+      }
+    }
+    if (random_.one_in(24)) {  // one number infinite, of whatever signs the others are
+      const auto number = [&] {
+        Vertex& v = vertices[random_.below(static_cast<std::uint32_t>(vertices.size()))];
+        float* const numbers[] = {&v.x, &v.y, &v.z, &v.w};
+        return numbers[random_.below(4)];
+      };
+      for (std::uint32_t n = 0; n < 6 * count; ++n) {
+        float* const turned = number();
+        *turned = -*turned;
+      }
+      *number() = random_.one_in(2) ? kInfinity : -kInfinity;
+    }
+    if (random_.one_in(8)) {  // on the border of the guard band
+      Vertex& v = vertices[random_.below(static_cast<std::uint32_t>(vertices.size()))];
+      (random_.one_in(2) ? v.x : v.y) = static_cast<float>(random_.one_in(2) ? kGuardBand : -kGuardBand) * v.w;
+    }
+    draw_.vertices = vertices, draw_.indices = indices;
+    draw_.fill_rule = static_cast<FillRule>(random_.below(8));
+    draw_.depth_mode = static_cast<DepthMode>(random_.below(3));
+    draw_.cull = random_.one_in(3) ? static_cast<Cull>(random_.below(3)) : Cull::none;
+    const int samples = uneven ? 16 : 1 << random_.below(5);
+    // The last four of sixteen lie on the pixel's left or upper border, or near it.
+    const SampleLocation location =
+        sample_location(samples, uneven ? random_.between(12, 15) : random_.between(0, samples - 1));
+    PixelBox region{0, 0, size, size};
+    if (random_.one_in(3)) region = {size / 4, size / 5, size - size / 3, size - size / 7};
+    if (crossing) region = {x, y, x + random_.between(1, 3), y + random_.between(1, 3)};
+    job_ = {
+        &draw_, 0, region, {location.x / 16.0, location.y / 16.0}, tie_shift(draw_.fill_rule), true, random_.one_in(3),
+        0,      0};
+    // What a lane does not set must not be looked at.
+    std::fill_n(reinterpret_cast<unsigned char*>(&batch_), sizeof batch_, static_cast<unsigned char>(0x7E));
+    Statistics statistics;
+    fast::kernels().set_up(job_, fast::BandSet(), 0, count, batch_, statistics);
+    if (statistics.triangles != count ||
+        statistics.clipped != static_cast<unsigned>(__builtin_popcount(batch_.clipped)) ||
+        statistics.small != static_cast<unsigned>(__builtin_popcount(batch_.live & batch_.small)) ||
+        statistics.small + statistics.medium !=
+            static_cast<unsigned>(__builtin_popcount(batch_.live & (batch_.medium | batch_.small))) ||
+        statistics.small + statistics.medium + statistics.large !=
+            static_cast<unsigned>(__builtin_popcount(batch_.live)))
+      return "the statistics count lanes";
+    for (std::uint32_t lane = 0; lane < count; ++lane) check(lane);
+    expect(statistics.rasterized == (draw_.grid ? reached_ : static_cast<unsigned>(__builtin_popcount(batch_.live))),
+           "the statistics count what is drawn");
+    expect(statistics.dropped == dropped_, "what is not finite is dropped");
+    if (random_.one_in(8)) shares(count, std::max(size, region.y1), statistics);
+    if (random_.one_in(256)) counts_all_triangles();
+    if (clips_) return broken_;
+    expect(statistics.signs_by_filter + statistics.signs_by_expansion <= unsure_,
+           "the sign of D is looked up only where doubles may not tell it");
+    if (!draw_.grid) return broken_;
+    for (std::uint32_t lane = count; lane < fast::kBatch; ++lane) near_a_turn(0);  // the other lanes are like the first
+    expect(statistics.values_by_filter + statistics.values_by_expansion <= turns_,
+           "grid positions are looked up only where doubles may not tell them");
+    return broken_;
+  }
+
+ private:
+  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+  void expect(bool holds, const char* what) {
+    if (!holds && broken_.empty()) broken_ = what;
+  }
+  static bool has(std::uint32_t lanes, std::uint32_t lane) { return (lanes >> lane & 1) != 0; }
+  // Ordinals are below kNoTriangle, over all draws: one triangle more, and the fast path cannot draw the frame.
+  void counts_all_triangles() {
+    constexpr std::size_t kEach = std::size_t{1} << 20;
+    static const std::vector<std::uint32_t> indices(3 * kEach);
+    std::vector<Draw> draws(kNoTriangle / kEach + 1);
+    for (Draw& draw : draws) draw.indices = indices;
+    Draw& last = draws[random_.below(static_cast<std::uint32_t>(draws.size()))];
+    last.indices = std::span(indices).first(3 * (kEach - 2));
+    expect(fast::supports(draws), "the fast path draws so many triangles");
+    last.indices = std::span(indices).first(3 * (kEach - 1));
+    expect(!fast::supports(draws), "the fast path draws no more triangles");
+  }
+  // Whole numbers and powers of two far below them, or far above: products of which some are exact, edges that miss
+  // samples by next to nothing; zeros of both signs, and sometimes an infinity.
+  std::array<Vertex, 3> uneven_triangle() {
+    const int finest = random_.one_in(2) ? 34 : 100;
+    const bool infinities = random_.one_in(16);
+    const auto number = [&](int low, int high) {
+      const float few = static_cast<float>(random_.between(-3, 3));
+      if (infinities && random_.one_in(6)) return few < 0 ? -kInfinity : kInfinity;
+      if (!random_.one_in(3)) return static_cast<float>(random_.between(low, high));
+      return std::ldexp(few, random_.one_in(12) ? random_.between(12, 30) : -random_.between(10, finest));
+    };
+    std::array<Vertex, 3> made;
+    for (Vertex& v : made) {
+      v = {number(-2, 14), number(-2, 14), number(0, 3), random_.one_in(3) ? number(1, 3) : 1.0f};
+      if (random_.one_in(16)) v.w = random_.one_in(2) ? 0.0f : -0.0f;
+    }
+    return made;
+  }
+  // With next to no area: two corners on a line through samples, the third far away in the line's direction; of any
+  // depth. No double, or just a double, tells the sign of D.
+  std::array<Vertex, 3> flat_triangle(int size) {
+    const auto any_depth = [&] {
+      return std::ldexp(static_cast<float>(2 * random_.unit() - 1), random_.one_in(2) ? random_.between(60, 126) : 0);
+    };
+    const float x = static_cast<float>(random_.between(0, size - 1)) + 0.5f,
+                y = static_cast<float>(random_.between(0, size - 1)) + 0.5f;
+    const auto dx = static_cast<float>(random_.between(-3, 3)), dy = static_cast<float>(random_.between(-3, 3));
+    const auto back = static_cast<float>(-random_.between(0, 300)), ahead = static_cast<float>(random_.between(1, 300));
+    const float far = static_cast<float>(2 * random_.unit() - 1) * std::ldexp(1.0f, -random_.between(40, 60));
+    return {{{x + back * dx, y + back * dy, any_depth(), 1},
+             {x + ahead * dx, y + ahead * dy, any_depth(), 1},
+             {dx, dy, any_depth() * far, far}}};
+  }
+  // From beside the target's first sample down to the right, a few pixels wide: near the first sample its edges' terms
+  // are small, and the errors of their steps are what counts at the last.
+  std::array<Vertex, 3> diagonal_triangle() {
+    const double far_x = random_.between(4000, 30000), far_y = random_.between(4000, 30000);
+    const auto near = [&] { return 2 * random_.unit() - 1; };
+    const double corners[3][2] = {{near(), near()}, {far_x, far_y}, {far_x + 20 * near(), far_y + 20 * near()}};
+    std::array<Vertex, 3> made;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double w = std::ldexp(1 + random_.unit(), random_.between(-12, 12));
+      made[k] = {static_cast<float>(corners[k][0] * w), static_cast<float>(corners[k][1] * w),
+                 static_cast<float>(near() * w), static_cast<float>(w)};
+    }
+    return made;
+  }
+  // Around (x, y), where its depth passes 0: far from the origin of the screen, the errors of E_i are all there is.
+  std::array<Vertex, 3> crossing_triangle(int x, int y) {
+    const double slope_x = random_.unit() - 0.5, slope_y = random_.unit() - 0.5;
+    const int reach = 1 << random_.between(1, 10);
+    std::array<Vertex, 3> made;
+    for (Vertex& v : made) {
+      const double w = random_.one_in(2) ? 1 : 1 + random_.unit();
+      const double dx = (2 * random_.unit() - 1) * reach, dy = (2 * random_.unit() - 1) * reach;
+      v = {static_cast<float>((x + dx) * w), static_cast<float>((y + dy) * w), 0, static_cast<float>(w)};
+      v.z = static_cast<float>((v.x / static_cast<double>(v.w) - x) * slope_x * v.w +
+                               (v.y / static_cast<double>(v.w) - y) * slope_y * v.w);
+    }
+    return made;
+  }
+  // Snapped to the grid, its corners are as near to one line as they can be, and far apart: P, Q and P + (u, v), where
+  // (Q - P) x (u, v) is 1, or 0, grid step each way.
+  std::array<Vertex, 3> thin_triangle() {
+    const double steps = 1 << draw_.grid->bits;
+    const auto any = [&] { return std::round((2 * random_.unit() - 1) * (kMaxTargetSize - 1) * steps); };
+    double x = any(), y = any(), to_x = any(), to_y = any();
+    if (random_.one_in(2)) {  // from the first sample of its box, near which it passes, down to the right
+      std::tie(x, to_x) = std::minmax({std::fabs(x), std::fabs(to_x)});
+      std::tie(y, to_y) = std::minmax({std::fabs(y), std::fabs(to_y)});
+    }
+    const double dx = to_x - x, dy = to_y - y;
+    auto r0 = static_cast<std::int64_t>(dx), r1 = static_cast<std::int64_t>(dy);
+    double v0 = 1, v1 = 0, u0 = 0, u1 = 1;  // Euclid: r = dx v + dy u, so that dx v0 + dy u0 divides both
+    while (r1 != 0) {
+      const std::int64_t q = r0 / r1;
+      std::tie(r0, r1) = std::pair(r1, r0 - q * r1);
+      std::tie(v0, v1) = std::pair(v1, v0 - static_cast<double>(q) * v1);
+      std::tie(u0, u1) = std::pair(u1, u0 - static_cast<double>(q) * u1);
+    }
+    double u = -u0, v = v0;
+    if (u * dx + v * dy < 0) u += dx, v += dy;
+    if (random_.one_in(4)) u = dx, v = dy;
+    const double corner[3][2] = {{x, y}, {x + dx, y + dy}, {x + u, y + v}};
+    std::array<Vertex, 3> made;
+    for (std::size_t k = 0; k < 3; ++k) {
+      // A W with which float32 numbers come near enough, mostly.
+      const double at_x = (corner[k][0] + draw_.grid->offset_x / 16.0) / steps,
+                   at_y = (corner[k][1] + draw_.grid->offset_y / 16.0) / steps;
+      const auto error = [&](double at, float w) {
+        return std::fabs(static_cast<double>(static_cast<float>(at * w)) / w - at) * steps;
+      };
+      float w = 1;
+      for (int tries = 0; tries < 300 && std::max(error(at_x, w), error(at_y, w)) > 0.4; ++tries)
+        w = static_cast<float>(1 + random_.unit());
+      made[k] = {static_cast<float>(at_x * w), static_cast<float>(at_y * w), w / 2, w};
+    }
+    if (random_.one_in(2)) std::swap(made[0], made[1]);
+    return made;
+  }
+  SamplePosition at(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
+
+  template <class Terms>
+  static mpq_class sum_of(const Terms& expansion) {
+    mpq_class sum;
+    for (int i = 0; i < expansion.size(); ++i) sum += expansion.term(i);
+    return sum;
+  }
+
+  void check(std::uint32_t lane) {
+    const Vertex* v[3] = {&draw_.vertices[3 * lane], &draw_.vertices[3 * lane + 1], &draw_.vertices[3 * lane + 2]};
+    bool finite = true;
+    for (const Vertex* vertex : v) {
+      finite = finite && std::isfinite(vertex->x) && std::isfinite(vertex->y) && std::isfinite(vertex->z) &&
+               std::isfinite(vertex->w);
+    }
+    if (!finite) ++dropped_;
+    if (draw_.grid) return check_snapped(lane, v, finite);
+    Statistics statistics;
+    const bool drawn = finite && triangle_.set_up(*v[0], *v[1], *v[2], statistics);
+    if (finite && !determinant_is_clear(lane)) ++unsure_;
+    const bool front = drawn && (triangle_.determinant() > 0) == (draw_.front_face == FrontFace::clockwise);
+    const bool culled = draw_.cull == Cull::front ? front : draw_.cull == Cull::back && !front;
+    const bool live = has(batch_.live, lane);
+    expect(!live || (drawn && !culled), "what is live is a triangle that is not culled");
+    if (!drawn || culled) return;
+    const PixelBox exact_box = screen_box(*v[0], *v[1], *v[2], job_.region, std::min(job_.sample.x, job_.sample.y),
+                                          std::max(job_.sample.x, job_.sample.y));
+    if (!live) {
+      for (int n = 0; n < 12 && !exact_box.empty(); ++n) {
+        const int x = random_.between(exact_box.x0, exact_box.x1 - 1),
+                  y = random_.between(exact_box.y0, exact_box.y1 - 1);
+        expect(!triangle_.covers(at(x, y), job_.shift, statistics), "what is not live covers nothing");
+      }
+      return;
+    }
+    take_box(lane);
+    expect(x0_ >= job_.region.x0 && x1_ < job_.region.x1 && y0_ >= job_.region.y0 && y1_ < job_.region.y1 &&
+               x0_ <= x1_ && y0_ <= y1_,
+           "the box lies in the region");
+    if (!broken_.empty()) return;
+    box(v, exact_box);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const EdgeFunction& edge = triangle_.edge(static_cast<int>(i));
+      line_[i] = {edge.a, edge.b, edge.c, edge.exact};
+    }
+    sign_ = triangle_.determinant();
+    what_is_set_up(lane, v);
+  }
+
+  // Each of several threads sets up what reaches its bands, and all together count as one alone.
+  void shares(std::uint32_t count, int height, const Statistics& alone) {
+    const int threads = random_.between(2, 3), bands = (height + fast::kTileSize - 1) >> fast::kTileLog2;
+    Statistics sum;
+    for (int thread = 0; thread < threads; ++thread) {
+      const fast::BandSet owned(thread, threads, 0, bands, bands);
+      fast::Batch share;
+      std::fill_n(reinterpret_cast<unsigned char*>(&share), sizeof share, static_cast<unsigned char>(0x7E));
+      fast::kernels().set_up(job_, owned, 0, count, share, sum);
+      for (std::uint32_t lane = 0; lane < count; ++lane) {
+        if (has(share.live, lane)) {
+          bool same = has(batch_.live, lane) && share.first_x[lane] == batch_.first_x[lane] &&
+                      share.last_x[lane] == batch_.last_x[lane] && share.first_y[lane] == batch_.first_y[lane] &&
+                      share.last_y[lane] == batch_.last_y[lane];
+          for (std::size_t i = 0; i < 3; ++i) same = same && share.e[i][lane] == batch_.e[i][lane];
+          expect(same, "a thread's share is what one alone has");
+        } else if (has(batch_.live, lane)) {
+          for (int y = batch_.first_y[lane]; y <= batch_.last_y[lane]; ++y)
+            expect(!owned.owns(y >> fast::kTileLog2), "what reaches a thread's bands is set up");
+        }
+      }
+    }
+    const int sets = random_.between(1, 3), begin = random_.between(0, bands - 1),
+              end = random_.between(begin + 1, bands);
+    for (int band = 0; band <= bands; ++band) {
+      int owners = 0;
+      for (int set = 0; set < sets; ++set) owners += fast::BandSet(set, sets, begin, end, bands).owns(band) ? 1 : 0;
+      expect(band >= begin && band < end ? owners == 1 : owners == 0 || end - begin == bands,
+             "a band at hand belongs to one set, and no other does");
+    }
+    expect(sum.triangles == alone.triangles && sum.dropped == alone.dropped && sum.degenerate == alone.degenerate &&
+               sum.culled == alone.culled && sum.outside == alone.outside && sum.rasterized == alone.rasterized &&
+               sum.small == alone.small && sum.medium == alone.medium && sum.large == alone.large &&
+               sum.clipped == alone.clipped && sum.signs_by_filter == alone.signs_by_filter &&
+               sum.signs_by_expansion == alone.signs_by_expansion && sum.values_by_filter == alone.values_by_filter &&
+               sum.values_by_expansion == alone.values_by_expansion,
+           "threads count together as one alone");
+  }
+
+  // The same under Grid, for the triangle on the grid.
+  void check_snapped(std::uint32_t lane, const Vertex* const (&v)[3], bool finite) {
+    bool whole = finite;
+    for (const Vertex* vertex : v) {
+      const double limit = kGuardBand * static_cast<double>(vertex->w);
+      whole = whole && vertex->w > 0 && std::fabs(vertex->x) <= limit && std::fabs(vertex->y) <= limit;
+    }
+    near_a_turn(lane);
+    Statistics statistics;
+    const bool some = finite && snapped_.set_up(*v[0], *v[1], *v[2], *draw_.grid, statistics);
+    const double least = std::min(job_.sample.x, job_.sample.y), most = std::max(job_.sample.x, job_.sample.y);
+    const bool clipped = finite && !whole;
+    const bool clipped_is_seen = clipped && some && !snapped_.box(job_.region, least, most).empty();
+    clips_ = clips_ || clipped;
+    if (clipped_is_seen) ++reached_;
+    expect(has(batch_.clipped, lane) == clipped_is_seen, "`clipped` is what the guard band cuts");
+    expect(whole || !has(batch_.live, lane), "what is not within the guard band is not drawn as it is");
+    if (!whole) return;
+
+    const int units_per_pixel = 16 << draw_.grid->bits;
+    std::int64_t x[3], y[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const SamplePosition corner = snapped_.corner(static_cast<int>(k));
+      expect(batch_.corner_x[k][lane] == corner.x && batch_.corner_y[k][lane] == corner.y, "corners are on the grid");
+      corner_[k] = corner;
+      x[k] = static_cast<std::int64_t>(corner.x * units_per_pixel);
+      y[k] = static_cast<std::int64_t>(corner.y * units_per_pixel);
+    }
+    const auto samples = [](double a, double b, double c, double offset, int begin, int end, int* first, int* last) {
+      *first = static_cast<int>(std::clamp<double>(std::ceil(std::min({a, b, c}) - offset), begin, end));
+      *last = static_cast<int>(std::clamp<double>(std::floor(std::max({a, b, c}) - offset), begin - 1, end - 1));
+    };
+    const PixelBox& region = job_.region;
+    samples(corner_[0].x, corner_[1].x, corner_[2].x, job_.sample.x, region.x0, region.x1, &x0_, &x1_);
+    samples(corner_[0].y, corner_[1].y, corner_[2].y, job_.sample.y, region.y0, region.y1, &y0_, &y1_);
+    const int box[4] = {x0_, x1_, y0_, y1_};
+    const bool reached = x0_ <= x1_ && y0_ <= y1_;
+    if (reached) ++reached_;
+    const std::int64_t left = (x[1] - x[0]) * (y[2] - y[0]), right = (y[1] - y[0]) * (x[2] - x[0]);
+    sign_ = left > right ? 1 : left < right ? -1 : 0;
+    const bool culled = draw_.cull == Cull::front ? sign_ > 0 : draw_.cull == Cull::back && sign_ < 0;
+    const bool live = has(batch_.live, lane);
+    expect(live == (reached && sign_ != 0 && !culled), "what is live reaches samples, has an area and is not culled");
+    if (!live || !broken_.empty()) return;
+    take_box(lane);
+    expect(x0_ == box[0] && x1_ == box[1] && y0_ == box[2] && y1_ == box[3], "the box is that of the corners");
+    for (std::size_t i = 0; i < 3; ++i) {
+      const SamplePosition &j = corner_[(i + 1) % 3], &k = corner_[(i + 2) % 3];
+      line_[i] = {j.y - k.y, k.x - j.x, -((j.y - k.y) * j.x + (k.x - j.x) * j.y), true};
+    }
+    triangle_.set_up(*v[0], *v[1], *v[2], statistics);  // its depth is that of the triangle as it was
+    what_is_set_up(lane, v);
+    float range[3];
+    for (std::size_t k = 0; k < 3; ++k)
+      range[k] = std::clamp(v[k]->z / v[k]->w, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
+    const float low = std::min({range[0], range[1], range[2]}), high = std::max({range[0], range[1], range[2]});
+    expect(batch_.z_least[lane] == (job_.greater ? -high : low) && batch_.z_most[lane] == (job_.greater ? -low : high),
+           "the range of depth is that of the corners");
+    for (const float end : {batch_.z_least[lane], batch_.z_most[lane]})
+      expect(end != 0 || !std::signbit(end), "the range of depth has no -0");
+  }
+
+  // Counts the coordinates of corners of which doubles alone may not be able to round one to the grid.
+  void near_a_turn(std::uint32_t lane) {
+    for (std::uint32_t k = 0; k < 3; ++k) {
+      const Vertex& v = draw_.vertices[3 * lane + k];
+      const auto is_near = [&](float c, int offset) {
+        const double t = static_cast<double>(c) / v.w * (1 << draw_.grid->bits) - offset / 16.0;
+        const double turn = draw_.grid->rounding == GridRounding::truncate ? t : t + 0.5;
+        return !(std::fabs(turn - std::rint(turn)) > 0x1p-20);
+      };
+      if (is_near(v.x, draw_.grid->offset_x) || is_near(v.y, draw_.grid->offset_y)) turns_ += 2;
+    }
+  }
+
+  // D is far larger than any error of D = sum W_i E_i in double.
+  bool determinant_is_clear(std::uint32_t lane) {
+    const double x = batch_.origin_x(lane) + job_.sample.x, y = batch_.origin_y(lane) + job_.sample.y;
+    double terms = 0;
+    for (int i = 0; i < 3; ++i) {
+      const EdgeFunction& edge = triangle_.edge(i);
+      terms += (std::fabs(edge.a * x) + std::fabs(edge.b * y) + std::fabs(edge.c)) * std::fabs(triangle_.vertex(i).w);
+    }
+    return std::fabs(triangle_.exact_determinant_value().estimate()) > 0x1p-47 * terms;
+  }
+
+  void take_box(std::uint32_t lane) {
+    x0_ = batch_.first_x[lane], x1_ = batch_.last_x[lane], y0_ = batch_.first_y[lane], y1_ = batch_.last_y[lane];
+    origin_x_ = batch_.origin_x(lane), origin_y_ = batch_.origin_y(lane);
+  }
+
+  void what_is_set_up(std::uint32_t lane, const Vertex* const (&v)[3]) {
+    const bool small = has(batch_.small, lane), medium = has(batch_.medium, lane);
+    expect(small == (x1_ - (x0_ & ~3) < 16 && y1_ - (y0_ & ~3) < 16), "`small` is 4 x 4 cells");
+    expect(has(batch_.tiny, lane) == (x1_ - x0_ < 2 && y1_ - y0_ < 2), "`tiny` is 2 x 2 samples");
+    expect(medium == (x1_ - (x0_ & ~7) < 64 && y1_ - (y0_ & ~7) < 64), "`medium` is 8 x 8 blocks");
+    expect(has(batch_.negative, lane) == (sign_ < 0), "`negative` is D < 0");
+    if (small || medium) edges(lane, small ? 16 : 64);
+    if (small || medium) doubt(lane, small ? 24 : 22, small ? 16 : 64);
+    if (!small) unscaled_edges(lane);
+    depth(lane, v);
+  }
+
+  // It holds every sample that is covered; and no more than what float32 quotients add, and one sample offset for both
+  // axes where a vertex lies behind the eye.
+  void box(const Vertex* const (&v)[3], const PixelBox& wide) {
+    const double w[3] = {v[0]->w, v[1]->w, v[2]->w};
+    PixelBox least = job_.region;
+    clip_to_reach(reach({v[0]->x, v[1]->x, v[2]->x}, w), job_.sample.x, job_.sample.x, &least.x0, &least.x1);
+    clip_to_reach(reach({v[0]->y, v[1]->y, v[2]->y}, w), job_.sample.y, job_.sample.y, &least.y0, &least.y1);
+    if (!least.empty())
+      expect(x0_ <= least.x0 && x1_ >= least.x1 - 1 && y0_ <= least.y0 && y1_ >= least.y1 - 1,
+             "the box holds the triangle");
+    expect(x0_ >= wide.x0 - 1 && x1_ <= wide.x1 && y0_ >= wide.y0 - 1 && y1_ <= wide.y1,
+           "the box is no larger than need be");
+    // Where float32 arithmetic is exact, not at all.
+    bool exact = !least.empty();
+    for (const Vertex* vertex : v) {
+      const auto few_bits = [](float c) { return std::fabs(c) < 0x1p13f && c * 256 == std::rint(c * 256); };
+      exact = exact && vertex->w == 1 && few_bits(vertex->x) && few_bits(vertex->y);
+    }
+    if (exact)
+      expect(x0_ == least.x0 && x1_ == least.x1 - 1 && y0_ == least.y0 && y1_ == least.y1 - 1,
+             "the box is the smallest");
+  }
+
+  template <typename Visit>
+  void for_some_samples(const Visit& visit) {
+    visit(x0_, y0_), visit(x1_, y0_), visit(x0_, y1_), visit(x1_, y1_);
+    for (int n = 0; n < 6; ++n) visit(random_.between(x0_, x1_), random_.between(y0_, y1_));
+  }
+
+  // Of an edge in integers, v >= 0 says inside and v < -doubt says outside.
+  void edges(std::uint32_t lane, int reach) {
+    const std::int64_t doubt = batch_.doubt[lane];
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int64_t a = batch_.a[i][lane], b = batch_.b[i][lane], e = batch_.e[i][lane];
+      const Line& edge = line_[i];
+      const auto value = [&](int x, int y) { return e + a * (x - origin_x_) + b * (y - origin_y_); };
+      const auto inside = [&](int x, int y) {
+        const int sign = edge_sign(i, at(x, y));
+        return (sign != 0 ? sign : tie_sign(edge.a, edge.b, job_.shift)) == sign_;
+      };
+      const std::int64_t rise = 3 * (std::max<std::int64_t>(a, 0) + std::max<std::int64_t>(b, 0));
+      expect(batch_.most[i][lane] == rise + doubt, "`most` is the largest change, and the doubt");
+      const int steps = reach - 1;
+      const std::int64_t far = steps * (std::abs(a) + std::abs(b)) + std::abs(e) + 2 * doubt;
+      expect(far < std::numeric_limits<std::int32_t>::max(), "integer edges do not overflow");
+      expect(edge.a == 0 || std::fabs(edge.a) < std::fabs(edge.b) || std::abs(a) >= 1 << 21,
+             "steps in x have their bits");
+      expect(edge.b == 0 || std::fabs(edge.b) < std::fabs(edge.a) || std::abs(b) >= 1 << 21,
+             "steps in y have their bits");
+      const auto judge = [&](int x, int y) {
+        const std::int64_t at_sample = value(x, y);
+        if (at_sample >= 0) expect(inside(x, y), "what is surely inside is");
+        if (at_sample < -doubt) expect(!inside(x, y), "what is surely outside is");
+      };
+      for_some_samples(judge);
+      // Where the edge crosses a row or a column: as near as samples come to it.
+      for (int n = 0; n < 4; ++n) {
+        const int x = random_.between(x0_, x1_), y = random_.between(y0_, y1_);
+        if (b != 0) {
+          const std::int64_t crossing = origin_y_ - (e + a * (x - origin_x_)) / b;
+          for (std::int64_t near = crossing - 1; near <= crossing + 1; ++near)
+            if (near >= y0_ && near <= y1_) judge(x, static_cast<int>(near));
+        }
+        if (a != 0) {
+          const std::int64_t crossing = origin_x_ - (e + b * (y - origin_y_)) / a;
+          for (std::int64_t near = crossing - 1; near <= crossing + 1; ++near)
+            if (near >= x0_ && near <= x1_) judge(static_cast<int>(near), y);
+        }
+      }
+    }
+  }
+
+  // Of E_i, exactly.
+  int edge_sign(std::size_t i, SamplePosition p) {
+    Statistics statistics;
+    if (!draw_.grid) return triangle_.edge(static_cast<int>(i)).sign(p, statistics);
+    const int units_per_pixel = 16 << draw_.grid->bits;
+    const auto units = [&](double pixels) { return static_cast<std::int64_t>(pixels * units_per_pixel); };
+    const SamplePosition& j = corner_[(i + 1) % 3];
+    const std::int64_t left = units(line_[i].a) * units(p.x - j.x), right = units(line_[i].b) * units(j.y - p.y);
+    return left > right ? 1 : left < right ? -1 : 0;
+  }
+
+  // Twice the bound of rounding. There is none exactly if all edges are integers in units of the scale: a and b, and c
+  // in 2^-10 of them; under Grid, where corners are integers anyway, if the scale has bits for the smallest value
+  // (grid-inl.hpp).
+  void doubt(std::uint32_t lane, int exponent, int bound) {
+    bool none = true;
+    for (const Line& line : line_) {
+      const double largest = std::max({std::fabs(line.a), std::fabs(line.b), 0x1p-400});
+      const double scale = std::ldexp(1, exponent - std::ilogb(largest));
+      const double c = line.c * (scale * 0x1p10);
+      const auto whole = [](double value) { return value == std::rint(value); };
+      if (draw_.grid) {
+        none = none && scale * std::ldexp(16, -2 * (draw_.grid->bits + 4)) >= 0x1p-12;
+      } else {
+        none =
+            none && line.exact && whole(line.a * scale) && whole(line.b * scale) && whole(c) && std::fabs(c) < 0x1p52;
+      }
+    }
+    expect(batch_.doubt[lane] == (none ? 0 : 2 * bound), "edges are without doubt where they can be");
+  }
+
+  // In double, with D's sign; their rounding is what a tile's bound allows for.
+  void unscaled_edges(std::uint32_t lane) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Line& line = line_[i];
+      const auto near = [](double actual, double exact, double terms) {
+        return std::fabs(actual - exact) <= terms * 0x1p-51;
+      };
+      // In W = 1 the first two are exact.
+      double j[3], k[3];
+      const std::size_t from = (i + 1) % 3, to = (i + 2) % 3;
+      if (draw_.grid) {
+        j[0] = corner_[from].x, j[1] = corner_[from].y, j[2] = 1, k[0] = corner_[to].x, k[1] = corner_[to].y, k[2] = 1;
+      } else {
+        const Vertex &v = triangle_.vertex(static_cast<int>(from)), &w = triangle_.vertex(static_cast<int>(to));
+        j[0] = v.x, j[1] = v.y, j[2] = v.w, k[0] = w.x, k[1] = w.y, k[2] = w.w;
+      }
+      const auto terms = [&](std::size_t p, std::size_t q) { return std::fabs(j[p] * k[q]) + std::fabs(j[q] * k[p]); };
+      const double c_terms = draw_.grid ? 2 * (std::fabs(line.a * j[0]) + std::fabs(line.b * j[1])) : terms(0, 1);
+      expect(near(batch_.edge_a[i][lane], sign_ * line.a, terms(1, 2)) &&
+                 near(batch_.edge_b[i][lane], sign_ * line.b, terms(2, 0)) &&
+                 near(batch_.edge_c[i][lane], sign_ * line.c, c_terms),
+             "unscaled edges are the triangle's");
+    }
+  }
+
+  // As cells put it together: high parts are exact, and depth lies between the sums with the two low parts.
+  void depth_in_parts(std::uint32_t lane, const mpq_class& determinant) {
+    const float error = batch_.low_error[lane];
+    const double slopes = std::fabs(batch_.z_x[lane]) + std::fabs(batch_.z_y[lane]);
+    const double largest = std::fabs(batch_.z[lane]) + 18 * slopes;
+    expect(error <= 1.001 * batch_.z_error[lane] + 0x1p-40 * largest + 0x1p-140, "parts add little to the error");
+    // As docs/precision.md has it: 56 units of 2^-46 of the power of two at or below the largest part.
+    const double columns = x1_ - origin_x_, rows = y1_ - origin_y_;
+    const double size = std::fabs(batch_.z[lane]) +
+                        (std::fabs(batch_.z_x[lane]) * columns + std::fabs(batch_.z_y[lane]) * rows) + 3 * slopes;
+    if (batch_.z_error[lane] != 0) {
+      const double power = std::ldexp(1, std::ilogb(std::max(size, 0x1p-100)));
+      expect(error >= batch_.z_error[lane] + 56 * 0x1p-46 * power, "the error of the parts holds that of splitting");
+    }
+    expect(error >= batch_.z_error[lane], "the error of the parts holds that of the plane");
+    const auto step = [&](int x, int y, const float(&along_x)[fast::kBatch], const float(&along_y)[fast::kBatch]) {
+      return along_x[lane] * static_cast<float>(x) + along_y[lane] * static_cast<float>(y);
+    };
+    const auto judge = [&](int x, int y) {
+      const int dx = x - origin_x_, dy = y - origin_y_, cx = dx >> 2, cy = dy >> 2;
+      const auto sum = [&](float start, const auto& along_x, const auto& along_y, float offset) {
+        return (start + 4 * step(cx, cy, along_x, along_y)) + (step(dx & 3, dy & 3, along_x, along_y) + offset);
+      };
+      const float high = sum(batch_.high[lane], batch_.high_x, batch_.high_y, 0);
+      const mpq_class exact =
+          mpq_class(batch_.high[lane]) + mpq_class(batch_.high_x[lane]) * dx + mpq_class(batch_.high_y[lane]) * dy;
+      expect(exact == mpq_class(high), "sums of high parts are exact");
+      const float least = sum(batch_.low[lane], batch_.low_x, batch_.low_y, -error),
+                  most = sum(batch_.low[lane], batch_.low_x, batch_.low_y, error);
+      mpq_class real = sum_of(triangle_.exact_depth_numerator(at(x, y))) / determinant;
+      if (job_.greater) real = -real;
+      expect(mpq_class(high) + mpq_class(least) <= real && real <= mpq_class(high) + mpq_class(most),
+             "depth lies between its parts' sums");
+    };
+    for_some_samples(judge);
+  }
+
+  void depth(std::uint32_t lane, const Vertex* const (&v)[3]) {
+    bool within = true;
+    for (const Vertex* vertex : v) within = within && vertex->w > 0 && vertex->z >= 0 && vertex->z <= vertex->w;
+    expect(has(batch_.clip, lane) == (draw_.depth_mode != DepthMode::none && !within), "`clip` is what may be clipped");
+    const mpq_class determinant = sum_of(triangle_.exact_determinant_value());
+    double size = 0, terms = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const EdgeFunction& edge = triangle_.edge(static_cast<int>(i));
+      const double x = x1_ + 1.0, y = y1_ + 1.0;
+      terms += (std::fabs(edge.a) * x + std::fabs(edge.b) * y + std::fabs(edge.c)) * std::fabs(v[i]->w);
+      size += std::fabs(static_cast<double>(v[i]->z));
+    }
+    const double d = std::fabs(determinant.get_d()), least = std::min({v[0]->w, v[1]->w, v[2]->w});
+    const bool well_shaped = least > 0 && terms < 0x1p20 * d;  // and in front of the eye
+    if (has(batch_.slow_depth, lane)) {
+      expect(!well_shaped || size / least * (terms / d) > 1e30, "depth is known where it can be");
+      return;
+    }
+    expect(determinant != 0, "without D, no depth is known");
+    if (!broken_.empty()) return;
+    const double z = batch_.z[lane], zx = batch_.z_x[lane], zy = batch_.z_y[lane], error = batch_.z_error[lane];
+    expect(error >= 0, "there is an error bound of depth");
+    expect(std::fabs(z) + error < 1e37, "what is known of depth has a float32");
+    if (!broken_.empty()) return;
+    for_some_samples([&](int x, int y) {
+      mpq_class real = sum_of(triangle_.exact_depth_numerator(at(x, y))) / determinant;
+      if (job_.greater) real = -real;
+      const double value = z + (zx * (x - origin_x_) + zy * (y - origin_y_));
+      expect(abs(real - value) <= error, "the error bound of depth holds");
+    });
+    if (has(batch_.small, lane)) depth_in_parts(lane, determinant);
+    if (well_shaped) {
+      const double slope = (std::fabs(zx) + std::fabs(zy)) * (64 + (x1_ - x0_) + (y1_ - y0_)) + std::fabs(z);
+      expect(error <= 0x1p-46 * (size / least + slope) * (terms / d),
+             "the error bound of depth is no wider than need be");
+    }
+  }
+
+  Random random_;
+  Draw draw_;
+  fast::DrawJob job_{};
+  fast::Batch batch_;
+  Triangle triangle_;
+  SnappedTriangle snapped_;
+  SamplePosition corner_[3] = {};  // of the snapped triangle
+  // E_i of what is drawn, in double; exact: without rounding errors.
+  struct Line {
+    double a, b, c;
+    bool exact;
+  };
+  Line line_[3] = {};
+  int sign_ = 0;                             // of D
+  std::uint64_t dropped_ = 0, reached_ = 0;  // lanes
+  std::uint64_t unsure_ = 0, turns_ = 0;     // signs and positions that may have to be looked up
+  bool clips_ = false;
+  int x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0, origin_x_ = 0, origin_y_ = 0;
+  std::string broken_;
+};
+
+}  // namespace surefill::properties
+
+#endif  // SUREFILL_PROPERTIES_BATCH_BOUNDS_HPP

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The same bits on every machine: a hash of every output of every scene of the corpus, and of random scenes of several
+// tiles from each category, on every instruction set, on one and two threads, is the one in corpus/hashes.txt. After a
+// change of the rules or of the scenes: SUREFILL_RECORD_HASHES=1 surefill_tests --gtest_filter='Hashes*'.
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "corpus/scene.hpp"
+#include "properties/generators/generators.hpp"
+#include "properties/machinery/compare.hpp"
+#include "surefill/surefill.hpp"
+
+#if !defined(SUREFILL_REFERENCE_ONLY)
+#include "hwy/targets.h"
+#endif
+
+namespace surefill::properties {
+namespace {
+
+// FNV-1a of 64 bits.
+class Hash {
+ public:
+  void add(std::uint32_t word) {
+    for (int i = 0; i < 4; ++i) value_ = (value_ ^ (word >> (8 * i) & 0xFF)) * 0x100000001B3u;
+  }
+  void add(const std::vector<std::uint32_t>& words) {
+    for (const std::uint32_t word : words) add(word);
+  }
+  void add(const std::vector<float>& values) {
+    for (const float value : values) add(std::bit_cast<std::uint32_t>(value));
+  }
+  std::string text() const {
+    char digits[17];
+    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value_));
+    return digits;
+  }
+
+ private:
+  std::uint64_t value_ = 0xCBF29CE484222325u;
+};
+
+std::string hash_of(const corpus::Scene& scene, const Options& options) {
+  corpus::Frame frame(scene, outputs_of(scene));
+  const Status status = render(frame.target(), frame.draws(), nullptr, options);
+  if (status != Status::ok) return status_text(status);
+  const corpus::Image& image = frame.image();
+  Hash hash;
+  hash.add(image.count);
+  hash.add(image.index);
+  hash.add(image.depth);
+  hash.add(image.barycentrics);
+  for (const auto& attribute : image.attributes) hash.add(attribute);
+  return hash.text();
+}
+
+// By name: the corpus, and three random scenes of each category.
+std::map<std::string, corpus::Scene> scenes() {
+  std::map<std::string, corpus::Scene> all;
+  const std::filesystem::path root = SUREFILL_CORPUS "/cases";
+  for (const std::string& path : corpus::list_corpus(root.string())) {
+    corpus::Scene scene = corpus::read_scene_file(path);
+    try {
+      const corpus::Frame frame(scene);
+    } catch (const corpus::SceneError&) {
+      continue;  // points or lines
+    }
+    all[std::filesystem::relative(path, root).generic_string()] = std::move(scene);
+  }
+  for (const Category& category : categories()) {
+    for (std::uint64_t seed = 0; seed < 3; ++seed) {
+      SceneLimits limits;
+      limits.max_size = 180, limits.max_triangles = 12;
+      limits.samples = seed == 1;
+      all[std::string("random/") + category.name + "/" + std::to_string(seed)] = random_scene(category, seed, limits);
+    }
+  }
+  return all;
+}
+
+const char* const kFile = SUREFILL_CORPUS "/hashes.txt";
+
+std::map<std::string, std::string> recorded() {
+  std::map<std::string, std::string> hashes;
+  std::ifstream file(kFile);
+  std::string hash, name;
+  while (file >> hash >> name) hashes[name] = hash;
+  return hashes;
+}
+
+TEST(Hashes, AreTheRecordedOnes) {
+  const auto all = scenes();
+  if (std::getenv("SUREFILL_RECORD_HASHES") != nullptr) {
+    std::ofstream file(kFile);
+    for (const auto& [name, scene] : all) file << hash_of(scene, {.path = Path::reference}) << ' ' << name << '\n';
+    return;
+  }
+  const auto expected = recorded();
+  ASSERT_FALSE(expected.empty()) << kFile << " is missing or empty";
+  for (const auto& [name, hash] : expected) EXPECT_TRUE(all.contains(name)) << "no scene any more: " << name;
+  const auto check = [&](const Options& options, const std::string& where) {
+    for (const auto& [name, scene] : all) {
+      const auto found = expected.find(name);
+      ASSERT_NE(found, expected.end()) << "no hash of " << name;
+      EXPECT_EQ(hash_of(scene, options), found->second) << name << " " << where;
+    }
+  };
+  check({.path = Path::reference}, "on the reference path");
+#if !defined(SUREFILL_REFERENCE_ONLY)
+  for (std::int64_t bits = hwy::SupportedTargets() & HWY_TARGETS; bits != 0; bits &= bits - 1) {
+    const std::int64_t target = bits & -bits;
+    hwy::SetSupportedTargetsForTest(target);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+    for (const int threads : {1, 2}) {
+      check({.threads = threads},
+            std::string("on ") + hwy::TargetName(target) + ", threads " + std::to_string(threads));
+    }
+    hwy::SetSupportedTargetsForTest(0);
+    hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  }
+#endif
+}
+
+}  // namespace
+}  // namespace surefill::properties

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// surefill-zoo: holds the wrong rasterizers of the zoo against every property, or certifies each as a rival.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <string>
+#include <thread>
+
+#include "certify/commands/certify_command.hpp"
+#include "certify/run/files.hpp"
+#include "certify/run/progress.hpp"
+#include "mutation/matrix.hpp"
+#include "mutation/matrix_rivals.hpp"
+
+namespace surefill::mutation {
+namespace {
+
+struct Arguments {
+  ZooOptions options;
+  std::string markdown, picture, level = "quick";
+  ZooRivalOptions rivals;
+};
+
+int run(Arguments& arguments) {
+  for (const std::string& file : {arguments.markdown, arguments.picture})
+    if (!file.empty()) certify::check_writable(file);
+  certify::catch_interrupts();
+  if (!arguments.rivals.plugin.empty()) {
+    arguments.rivals.settings.level = certify::level_named(arguments.level);
+    arguments.rivals.settings.corpus = SUREFILL_CORPUS;
+    arguments.rivals.jobs = arguments.options.jobs;
+    const bool told = zoo_rivals(arguments.rivals, certify::print);
+    return certify::interrupted() ? certify::kInterrupted : told ? certify::kGood : certify::kBad;
+  }
+  const KillMatrix matrix = kill_matrix(arguments.options);
+  certify::print(zoo_text(matrix));
+  if (matrix.interrupted) return certify::kInterrupted;
+  if (!arguments.markdown.empty()) {
+    certify::write_file(arguments.markdown,
+                        zoo_markdown(matrix, std::filesystem::path(arguments.picture).filename().string()));
+  }
+  if (!arguments.picture.empty()) certify::write_file(arguments.picture, zoo_picture(matrix));
+  return matrix.failures().empty() ? certify::kGood : certify::kBad;
+}
+
+int parse_and_run(int argc, char** argv) {
+  Arguments arguments;
+  arguments.options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  arguments.options.cases = 500;
+  CLI::App app("Holds wrong rasterizers against every property: all must be killed.", "surefill-zoo");
+  app.add_option("--cases", arguments.options.cases, "Of each property (500)")->check(CLI::Range(1, 100000000));
+  app.add_option("--markdown", arguments.markdown, "Write the table there")
+      ->needs(app.add_option("--picture", arguments.picture, "Draw the matrix there, as SVG"));
+  app.add_option("--jobs", arguments.options.jobs, "Threads (all cores)")->check(CLI::Range(1, 4096));
+  CLI::Option* plugin = app.add_option("--plugin", arguments.rivals.plugin,
+                                       "libsurefill_zoo.so: certify each as a rival behind the adapter instead");
+  app.add_option("--only", arguments.rivals.only, "Names with * and ?, separated by commas")
+      ->delimiter(',')
+      ->needs(plugin);
+  app.add_option("--level", arguments.level, "Of certify: quick, standard or thorough (quick)")
+      ->check(CLI::IsMember({"quick", "standard", "thorough"}))
+      ->needs(plugin);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return app.exit(error);
+    throw certify::UsageError(std::string(error.what()) + " (--help shows the usage)");
+  }
+  return run(arguments);
+}
+
+}  // namespace
+}  // namespace surefill::mutation
+
+int main(int argc, char** argv) {
+  try {
+    return surefill::mutation::parse_and_run(argc, argv);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "surefill-zoo: %s\n", error.what());
+  }
+  return surefill::certify::kUsage;
+}

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "properties/machinery/compare.hpp"
+
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+#include "oracle/oracle.hpp"
+
+namespace surefill::properties {
+
+namespace {
+
+std::string show(std::uint32_t value) {
+  return value == kNoTriangle ? "none" : std::to_string(value);
+}
+
+std::string show(float value) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%a (%.9g)", static_cast<double>(value), static_cast<double>(value));
+  return text;
+}
+
+bool same(std::uint32_t a, std::uint32_t b) {
+  return a == b;
+}
+
+bool same(float a, float b) {
+  return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (std::isnan(a) && std::isnan(b));
+}
+
+// One buffer of `components` values a sample. A buffer that only one image has, or of another size, is one difference.
+template <typename Value>
+void compare_buffer(const std::string& name, const std::vector<Value>& expected, const std::vector<Value>& actual,
+                    const corpus::Image& image, std::size_t components, std::size_t keep, Comparison& result) {
+  if (expected.size() != actual.size()) {
+    ++result.differences;
+    if (result.first.size() < keep) {
+      result.first.push_back(
+          {name, 0, 0, 0, 0, std::to_string(expected.size()) + " values", std::to_string(actual.size()) + " values"});
+    }
+    return;
+  }
+  result.values += expected.size();
+  const std::size_t samples = static_cast<std::size_t>(image.samples);
+  const std::size_t width = static_cast<std::size_t>(image.width);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    if (same(expected[i], actual[i])) continue;
+    ++result.differences;
+    if (result.first.size() >= keep) continue;
+    const std::size_t sample = i / components;
+    const std::size_t pixel = sample / samples;
+    result.first.push_back({name, static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+                            static_cast<int>(sample % samples), static_cast<int>(i % components), show(expected[i]),
+                            show(actual[i])});
+  }
+}
+
+}  // namespace
+
+Renderer engine_renderer() {
+  return [](const Target& target, std::span<const Draw> draws) { return surefill::render(target, draws); };
+}
+
+Renderer oracle_renderer() {
+  return [](const Target& target, std::span<const Draw> draws) {
+    if (const Status status = validate(target, draws); status != Status::ok) return status;
+    oracle::render(target, draws);
+    return Status::ok;
+  };
+}
+
+Renderer clipped_oracle_renderer() {
+  return [](const Target& target, std::span<const Draw> draws) {
+    if (const Status status = validate(target, draws); status != Status::ok) return status;
+    oracle::clipped::render(target, draws);
+    return Status::ok;
+  };
+}
+
+corpus::Outputs outputs_of(const corpus::Scene& scene) {
+  for (const corpus::SceneDraw& draw : scene.draws) {
+    if (draw.conservative != Conservative::none) {
+      return {.count = true, .index = false, .depth = false, .barycentrics = false, .attributes = false};
+    }
+  }
+  return {};
+}
+
+Comparison compare(const corpus::Scene& scene, const corpus::Image& expected, const corpus::Image& actual,
+                   std::size_t keep) {
+  Comparison result;
+  result.samples = static_cast<std::uint64_t>(expected.width) * static_cast<std::uint64_t>(expected.height) *
+                   static_cast<std::uint64_t>(expected.samples);
+  compare_buffer("count", expected.count, actual.count, expected, 1, keep, result);
+  compare_buffer("index", expected.index, actual.index, expected, 1, keep, result);
+  compare_buffer("depth", expected.depth, actual.depth, expected, 1, keep, result);
+  compare_buffer("barycentrics", expected.barycentrics, actual.barycentrics, expected, 3, keep, result);
+  if (expected.attributes.size() != actual.attributes.size()) {
+    ++result.differences;
+    if (result.first.size() < keep) {
+      result.first.push_back({"attributes", 0, 0, 0, 0, std::to_string(expected.attributes.size()) + " arrays",
+                              std::to_string(actual.attributes.size()) + " arrays"});
+    }
+    return result;
+  }
+  for (std::size_t k = 0; k < expected.attributes.size(); ++k) {
+    const bool named = k < scene.attributes.size();
+    compare_buffer(named ? scene.attributes[k].name : std::string("attribute ").append(std::to_string(k)),
+                   expected.attributes[k], actual.attributes[k], expected, named ? scene.attributes[k].components : 1,
+                   keep, result);
+  }
+  return result;
+}
+
+Comparison compare(const corpus::Scene& scene, const Renderer& expected, const Renderer& actual,
+                   const corpus::Outputs& outputs, std::size_t keep) {
+  corpus::Outputs asked = outputs_of(scene);
+  asked.count = asked.count && outputs.count;
+  asked.index = asked.index && outputs.index;
+  asked.depth = asked.depth && outputs.depth;
+  asked.barycentrics = asked.barycentrics && outputs.barycentrics;
+  asked.attributes = asked.attributes && outputs.attributes;
+  corpus::Frame expected_frame(scene, asked);
+  corpus::Frame actual_frame(scene, asked);
+  const Status expected_status = expected(expected_frame.target(), expected_frame.draws());
+  const Status actual_status = actual(actual_frame.target(), actual_frame.draws());
+  if (expected_status == Status::ok && actual_status == Status::ok) {
+    return compare(scene, expected_frame.image(), actual_frame.image(), keep);
+  }
+  Comparison result;
+  result.samples = sample_total(actual_frame.target());
+  result.values = 1;
+  result.differences = 1;
+  if (keep > 0) {
+    result.first.push_back({"status", 0, 0, 0, 0, status_text(expected_status), status_text(actual_status)});
+  }
+  return result;
+}
+
+std::string describe(const Difference& difference, int samples) {
+  if (difference.output == "status") {
+    return "status: expected \"" + difference.expected + "\", got \"" + difference.actual + "\"";
+  }
+  std::string line = difference.output;
+  if (line == "barycentrics") {
+    line = "barycentric b";
+    line += std::to_string(difference.component);
+  } else if (difference.component > 0) {
+    line += '[';
+    line += std::to_string(difference.component);
+    line += ']';
+  }
+  line += " at pixel (";
+  line += std::to_string(difference.x);
+  line += ", ";
+  line += std::to_string(difference.y);
+  line += ')';
+  if (samples > 1) {
+    line += " sample ";
+    line += std::to_string(difference.sample);
+  }
+  return line + ": expected " + difference.expected + ", got " + difference.actual;
+}
+
+}  // namespace surefill::properties

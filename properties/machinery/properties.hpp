@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The registry of what is claimed: each property states a theorem or an equality, makes cases that aim at it, and
+// decides one case. The GoogleTest runs use it through RapidCheck, certify runs it by count, both report the same
+// names.
+#ifndef SUREFILL_PROPERTIES_PROPERTIES_HPP
+#define SUREFILL_PROPERTIES_PROPERTIES_HPP
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "corpus/scene.hpp"
+#include "properties/machinery/compare.hpp"
+
+namespace surefill::properties {
+
+// How one case came out.
+struct Verdict {
+  std::uint64_t samples = 0;      // samples looked at
+  std::uint64_t differences = 0;  // 0: the claim holds on this case
+  std::string finding;            // one line: what was expected, what came; empty if it holds
+};
+
+struct Property {
+  const char* name;   // "partition-delaunay", "degree-spot", "octants", "scale", "order", "identifiers", ...
+  const char* rule;   // "T1", "C3", ...
+  const char* claim;  // one sentence
+  bool needs_oracle;
+  // Does the claim make sense for every simplification of a case? If not (a mesh that must tile), a finding is reduced
+  // by comparing the renderer with the oracle instead.
+  bool simplifies;
+  std::uint64_t
+      exhaustive;  // 0: sampled by seed; else cases are numbered 0 .. exhaustive - 1 and that is all there are
+  corpus::Scene (*make)(std::uint64_t seed_or_number);
+  Verdict (*decide)(const corpus::Scene& scene, const Renderer& renderer);
+  bool holds_under_grid = false;  // also with one Grid, whatever it is, on every draw of the case
+};
+
+std::span<const Property> all_properties();
+
+// Case n of the property: n itself, or some case of an exhaustive one, well mixed.
+corpus::Scene sampled_case(const Property& property, std::uint64_t n);
+
+// Of so many cases of an ordinary property, how many of this one take about the same time.
+std::uint64_t affordable_cases(const Property& property, std::uint64_t cases);
+
+}  // namespace surefill::properties
+
+#endif  // SUREFILL_PROPERTIES_PROPERTIES_HPP

@@ -5,7 +5,7 @@
 // the proofs do not define.
 //
 //     surefill_compare_proofs PROGRAM --corpus FOLDER --scenes N [--seed S]
-#include "properties/compare.hpp"
+#include "properties/machinery/compare.hpp"
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -23,7 +23,7 @@
 #include <vector>
 
 #include "corpus/scene.hpp"
-#include "properties/generators.hpp"
+#include "properties/generators/generators.hpp"
 
 namespace {
 

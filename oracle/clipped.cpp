@@ -338,6 +338,10 @@ void DrawRun::count_conservative(const Triangle& triangle, int line) {
 }
 
 std::vector<Crossing> DrawRun::crossings(const Triangle& triangle, int line, const Location& location) const {
+  if (draw_.fill_rule == FillRule::closed || draw_.fill_rule == FillRule::open) {
+    const bool closed = draw_.fill_rule == FillRule::closed;
+    return chord_crossings(triangle.polygon, closed, triangle.orientation, line, location.y, location.x, length_);
+  }
   return along_x_ ? triangle.outline.crossings(line, location.y, location.x, length_)
                   : triangle.outline.crossings(line, location.x, location.y, length_);
 }

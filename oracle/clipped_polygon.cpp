@@ -194,6 +194,9 @@ Shift shift_of(FillRule rule) {
       return {1, -1, false};
     case FillRule::northwards_west:
       return {-1, -1, false};
+    case FillRule::closed:
+    case FillRule::open:
+      break;
   }
   return {1, 1, true};
 }
@@ -239,6 +242,23 @@ std::vector<Crossing> Outline::crossings(int line, int across, int along, int le
     result.push_back({std::clamp(to_int(first), 0, length), below[i] ? -sign_ : sign_});
   }
   return result;
+}
+
+std::vector<Crossing> chord_crossings(std::span<const Point> polygon, bool closed, int orientation, int line,
+                                      int across, int along, int length) {
+  const Rational height = line + Rational(across) / 16;
+  if (!closed) {  // a line along the lower or the upper end meets no interior
+    const auto lower = [](const Point& a, const Point& b) { return a.y < b.y; };
+    const auto [low, high] = std::minmax_element(polygon.begin(), polygon.end(), lower);
+    if (height <= low->y || high->y <= height) return {};
+  }
+  const auto chord = x_extent(polygon, height, height);
+  if (!chord) return {};
+  const Rational left = chord->first - Rational(along) / 16, right = chord->second - Rational(along) / 16;
+  const Rational first = closed ? ceil(left) : Rational(floor(left) + 1);
+  const Rational past = closed ? Rational(floor(right) + 1) : ceil(right);
+  if (past <= first) return {};
+  return {{std::clamp(to_int(first), 0, length), orientation}, {std::clamp(to_int(past), 0, length), -orientation}};
 }
 
 int winding(std::span<const Crossing> crossings, int pixel) {

@@ -64,7 +64,8 @@ std::optional<std::pair<Rational, Rational>> x_extent(std::span<const Point> pol
 // Section 6: the grid position nearest to `position`; `offset` is in units of 2^-(bits + 4).
 Rational snap(const Rational& position, int bits, int offset, GridRounding rounding);
 
-// C3: the signs of the two shifts, and which dominates.
+// C3: the signs of the two shifts, and which dominates. C5's rules shift nothing and have none: they get that of
+// top_left.
 struct Shift {
   int x, y;
   bool x_dominates;
@@ -101,6 +102,12 @@ class Outline {
   int along_shift_ = 1, across_shift_ = 1;
   int sign_ = 1;  // of the winding number: the transposed polygon turns the other way
 };
+
+// C5: the crossings of a convex polygon's chord on a line of samples along x, its ends included (closed) or not (open);
+// the winding number between them is `orientation`, that of the polygon, which has an area. Arguments and clamping as
+// in Outline::crossings.
+std::vector<Crossing> chord_crossings(std::span<const Point> polygon, bool closed, int orientation, int line,
+                                      int across, int along, int length);
 
 // The winding number at a pixel: positive as D is (clockwise on the screen).
 int winding(std::span<const Crossing> crossings, int pixel);

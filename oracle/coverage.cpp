@@ -40,6 +40,9 @@ Step step_of(FillRule rule) {
       return {1, -1, false};
     case FillRule::northwards_west:
       return {-1, -1, false};
+    case FillRule::closed:
+    case FillRule::open:
+      break;  // C5: no step
   }
   return {1, 1, true};
 }
@@ -101,6 +104,10 @@ int sign_of_determinant(const Position& m0, const Position& m1, const Position& 
 
 Cone::Cone(const std::array<Position, 3>& positions, FillRule rule)
     : m_(positions), tie_{}, det_(sign_of_determinant(m_[0], m_[1], m_[2])) {
+  if (rule == FillRule::closed || rule == FillRule::open) {
+    tie_.fill(rule == FillRule::closed ? 1 : -1);
+    return;
+  }
   const Step step = step_of(rule);
   for (std::size_t i = 0; i < 3; ++i) {
     const Position &j = m_[(i + 1) % 3], &k = m_[(i + 2) % 3];
@@ -116,13 +123,13 @@ int Cone::sign(int edge, Point p) const {
   return det_ * sign_of_determinant(m_[(i + 1) % 3], m_[(i + 2) % 3], {p.x / double{kUnits}, p.y / double{kUnits}, 1});
 }
 
-int Cone::perturbed_sign(int edge, Point p) const {
+int Cone::owning_sign(int edge, Point p) const {
   const int at_p = sign(edge, p);
   return at_p != 0 ? at_p : tie_[static_cast<std::size_t>(edge)];
 }
 
 bool Cone::covers(Point p) const {
-  return det_ != 0 && perturbed_sign(0, p) > 0 && perturbed_sign(1, p) > 0 && perturbed_sign(2, p) > 0;
+  return det_ != 0 && owning_sign(0, p) > 0 && owning_sign(1, p) > 0 && owning_sign(2, p) > 0;
 }
 
 bool Cone::square_within(const Rect& square) const {

@@ -49,9 +49,10 @@ class Cone {
 
   int sign_of_det() const { return det_; }  // of D
   int sign(int edge, Point p) const;        // of E_edge / D at p: -1, 0, 1
-  int perturbed_sign(int edge,
-                     Point p) const;  // at p moved by C3's step; 0 only if D = 0 or E_edge vanishes everywhere
-  bool covers(Point p) const;         // C1, C2, C3
+  // Where E_edge is not 0 at p its sign; else what the fill rule makes of it: the sign at p moved by C3's step, or
+  // C5's +1 (closed), -1 (open). 0 only if D = 0 or E_edge vanishes everywhere.
+  int owning_sign(int edge, Point p) const;
+  bool covers(Point p) const;  // C1, C2, C3, C5
 
   // M4, for the closed square of a pixel. D = 0 gives false. Precondition: the positions are float32 values (no grid).
   bool square_meets(const Rect& square) const;
@@ -62,7 +63,7 @@ class Cone {
 
  private:
   std::array<Position, 3> m_;
-  std::array<int, 3> tie_;  // the sign of E_i / D a step away from a zero
+  std::array<int, 3> tie_;  // what counts as the sign of E_i / D where it is 0
   int det_;
 };
 
@@ -118,7 +119,7 @@ void visit_covered(const Cone& cone, const Rect& rect, int samples, unsigned und
       for (int n = 0; n < samples; ++n) {
         bool covered = true;
         for (int edge = 0; covered && edge < 3; ++edge) {
-          covered = (undecided >> edge & 1u) == 0 || cone.perturbed_sign(edge, sample_point(samples, n, x, y)) > 0;
+          covered = (undecided >> edge & 1u) == 0 || cone.owning_sign(edge, sample_point(samples, n, x, y)) > 0;
         }
         if (covered) visit(x, y, n);
       }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The exact image, by CGAL and GMP: slow and obviously right. Shares no arithmetic with the engine; of the engine it
-// uses the public types alone. Everything of docs/semantics.md is covered: every fill rule, Grid with every rounding
-// and offset, sample patterns, conservative rasterization, scissor, depth modes and tests, several draws.
+// uses the public types alone. Sections 1 to 8 of docs/semantics.md are covered: every fill rule (and C5's two, which
+// the engine still refuses), Grid with every rounding and offset, sample patterns, conservative rasterization, scissor,
+// depth modes and tests, several draws.
 #ifndef SUREFILL_ORACLE_ORACLE_HPP
 #define SUREFILL_ORACLE_ORACLE_HPP
 
@@ -14,9 +15,9 @@
 
 namespace surefill::oracle {
 
-// The oracle. Arguments as for surefill::render, and valid (surefill::validate(target, draws) == Status::ok);
-// culling boxes are ignored (M6). Works on `threads` threads; the image does not depend on their number. May throw
-// bad_alloc.
+// The oracle. Arguments as for surefill::render, and valid (surefill::validate(target, draws) == Status::ok, but
+// for C5's fill rules); culling boxes are ignored (M6). Works on `threads` threads; the image does not depend on their
+// number. May throw bad_alloc.
 void render(const Target& target, std::span<const Draw> draws, int threads = 1);
 
 // One triangle of a frame, sample by sample: what it would leave in an empty image of its own, without the rest of that

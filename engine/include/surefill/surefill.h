@@ -203,8 +203,8 @@ typedef struct surefill_attribute_target {
 } surefill_attribute_target;
 
 /* Where the image goes. Sample n of pixel (x, y) is element (y * width + x) * samples + n of every buffer. Each buffer
- * asked for is overwritten whole; the empty sample holds count 0, index SUREFILL_NO_TRIANGLE, depth +inf (-inf for
- * SUREFILL_GREATER) or the initial depth, barycentrics and attributes +0 [V1]. */
+ * asked for is overwritten whole; a sample without a visible triangle holds index SUREFILL_NO_TRIANGLE, depth +inf (-inf
+ * for SUREFILL_GREATER) or the initial depth, barycentrics and attributes +0 [V1]. */
 typedef struct surefill_target {
   size_t struct_size;    /* sizeof(surefill_target) */
   int32_t width, height; /* pixels; must be set */

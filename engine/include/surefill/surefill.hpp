@@ -63,7 +63,7 @@ enum class Status : std::uint32_t {
   draw_first_index,           // first_index + triangles exceeds 2^32 - 1
   draw_attributes,            // fewer arrays than the target asks for, other components, or too short an array
   draw_attribute_interpolation,  // not an enumerator of Interpolation
-  draw_fill_rule,                // not an enumerator of FillRule
+  draw_fill_rule,                // not an enumerator of FillRule, or closed or open [C5]
   draw_front_face,               // not an enumerator of FrontFace
   draw_cull,                     // not an enumerator of Cull
   draw_depth_mode,               // not an enumerator of DepthMode
@@ -108,7 +108,8 @@ SUREFILL_API Status to_pixel(const Viewport& viewport, std::span<const ClipVerte
                              std::span<Vertex> out) noexcept;
 
 // Which side owns a sample that lies exactly on an edge [C3]: the sample is moved by an infinitely small step. The
-// first four move it in x first and in y only to settle ties along a horizontal edge; the last four in y first.
+// first four move it in x first and in y only to settle ties along a horizontal edge; the next four in y first. The last
+// two move nothing: every side owns it, or none [C5]; they are not built yet, and render refuses them.
 enum class FillRule : std::uint8_t {
   top_left,         // +x, then +y: Direct3D, Vulkan
   top_right,        // -x, then +y
@@ -118,6 +119,8 @@ enum class FillRule : std::uint8_t {
   southwards_west,  // +y, then -x
   northwards,       // -y, then +x
   northwards_west,  // -y, then -x
+  closed,           // the border is covered
+  open,             // the border is not covered
 };
 
 enum class FrontFace : std::uint8_t { clockwise, counter_clockwise };  // as seen on the screen; clockwise: D > 0 [F1]
@@ -174,8 +177,9 @@ struct AttributeTarget {
 };
 
 // Where the image goes. An empty span is an output that is not asked for. Sample n of pixel (x, y) is element
-// (y * width + x) * samples + n of every buffer. Each buffer asked for is overwritten whole; the empty sample holds
-// count 0, index kNoTriangle, depth +inf (-inf for greater) or the initial depth, barycentrics and attributes +0 [V1].
+// (y * width + x) * samples + n of every buffer. Each buffer asked for is overwritten whole; a sample without a visible
+// triangle holds index kNoTriangle, depth +inf (-inf for greater) or the initial depth, barycentrics and attributes +0
+// [V1].
 struct Target {
   int width = 0, height = 0;                    // pixels
   int samples = 1;                              // a pixel: 1, 2, 4, 8 or 16, at the standard locations [S4]

@@ -114,6 +114,9 @@ inline TieShift tie_shift(FillRule rule) {
       return {+1, -1, true};
     case FillRule::northwards_west:
       return {-1, -1, true};
+    case FillRule::closed:
+    case FillRule::open:
+      break;  // refused by validate
   }
   return {+1, +1, false};
 }

@@ -138,6 +138,32 @@ Proof.
   destruct (S _ _ A) as [-> ->], (S _ _ B) as [-> ->], (S _ _ C) as [-> ->]. auto.
 Qed.
 
+(* C5: closed is the closed cone, open the open one, and each of the eight rules is between them. *)
+Theorem C5_closed t p : covers_by closed t p = true <-> D t <> 0 /\ in_cone t p.
+Proof.
+  cbn [covers_by]. rewrite !andb_true_iff, negb_true_iff, Z.eqb_neq, !Z.leb_le. split.
+  - intros (((HD & A) & B) & C). split; [exact HD|]. apply cone_closed; auto.
+  - intros (HD & K). apply cone_closed in K; tauto.
+Qed.
+Theorem C5_open t p : covers_by open t p = true <-> D t <> 0 /\ in_open_cone t p.
+Proof.
+  cbn [covers_by]. rewrite !andb_true_iff, negb_true_iff, Z.eqb_neq, !Z.ltb_lt. split.
+  - intros (((HD & A) & B) & C). split; [exact HD|]. apply cone_open; auto.
+  - intros (HD & K). apply cone_open in K; tauto.
+Qed.
+Theorem C5_between r t p : (covers_by open t p = true -> covers r t p = true) /\ (covers r t p = true -> covers_by closed t p = true).
+Proof.
+  split; intros H.
+  - apply C5_open in H as [HD K]. now apply open_cone_covers.
+  - apply C5_closed. split; [|now apply covers_in_cone with r]. destruct t as [[m0 m1] m2]. apply covers_spec in H. tauto.
+Qed.
+(* Whichever rule covers p: D is not 0, and p is in the closed cone. *)
+Lemma covers_by_cone c t p : covers_by c t p = true -> D t <> 0 /\ in_cone t p.
+Proof.
+  intros H. apply C5_closed. destruct c as [r| |]; [now apply (C5_between r)|exact H|].
+  apply (C5_between top_left). now apply C5_between.
+Qed.
+
 (* --------------------------------------------------------------------------------------------------- T5. Order *)
 
 Theorem T5_cyclic r a b c p : covers r (b, c, a) p = covers r (a, b, c) p /\ D (b, c, a) = D (a, b, c).
@@ -152,6 +178,27 @@ Proof.
   split; [|exact N]. unfold covers, D. rewrite (edge_swap r b c), (edge_swap r a b), (edge_swap r c a), N, Z.sgn_opp.
   destruct (Z.eqb_spec (Z.sgn (det a b c)) 0) as [->|]; [reflexivity|].
   apply eq_true_iff_eq. rewrite !andb_true_iff, !negb_true_iff, !Z.eqb_eq, !Z.eqb_neq. lia.
+Qed.
+
+(* And of closed and open, which look at the products E_i D alone. *)
+Lemma tests_and (f : Z -> bool) d x y z : negb d && f x && f y && f z = negb d && f y && f z && f x.
+Proof. destruct d, (f x), (f y), (f z); reflexivity. Qed.
+Lemma tests_swap (f : Z -> bool) d x y z : negb d && f x && f z && f y = negb d && f x && f y && f z.
+Proof. destruct d, (f x), (f y), (f z); reflexivity. Qed.
+Theorem T5_closed_open o a b c p : o = closed \/ o = open ->
+  covers_by o (b, c, a) p = covers_by o (a, b, c) p /\ covers_by o (a, c, b) p = covers_by o (a, b, c) p.
+Proof.
+  assert (C : D (b, c, a) = D (a, b, c)) by (unfold D; now rewrite <- det_cyc).
+  assert (N : D (a, c, b) = - D (a, b, c)) by (unfold D, det, ea, eb, ec; ring).
+  assert (Z0 : forall d, (- d =? 0) = (d =? 0)) by (intros d; destruct (Z.eqb_spec (- d) 0), (Z.eqb_spec d 0); lia).
+  assert (S0 : E0 (a, c, b) p = - E0 (a, b, c) p) by (unfold E0; apply det_swap).
+  assert (S1 : E1 (a, c, b) p = - E2 (a, b, c) p) by (unfold E1, E2; apply det_swap).
+  assert (S2 : E2 (a, c, b) p = - E1 (a, b, c) p) by (unfold E1, E2; apply det_swap).
+  intros O. assert (T : exists f, forall t, covers_by o t p = negb (D t =? 0) && f (E0 t p * D t) && f (E1 t p * D t) && f (E2 t p * D t))
+    by (destruct O as [-> | ->]; [exists (Z.leb 0)|exists (Z.ltb 0)]; reflexivity).
+  destruct T as [f T]. rewrite !T, C, N, S0, S1, S2, Z0, !Z.mul_opp_opp. split; [|apply tests_swap].
+  change (E0 (b, c, a) p) with (E1 (a, b, c) p). change (E1 (b, c, a) p) with (E2 (a, b, c) p).
+  change (E2 (b, c, a) p) with (E0 (a, b, c) p). symmetry. apply tests_and.
 Qed.
 
 (* No double hit on a shared edge: two front-facing triangles on its two sides. *)
@@ -230,11 +277,44 @@ Theorem T4_rays r a b c a' b' c' p i j k i' j' k' :
 Proof.
   intros. rewrite <- (T4_scale r a b c p i j k), <- (T4_scale r a' b' c' p i' j' k') by assumption. congruence.
 Qed.
+Theorem T4_closed_open o a b c p i j k : o = closed \/ o = open -> 0 < i -> 0 < j -> 0 < k ->
+  covers_by o (scale i a, scale j b, scale k c) p = covers_by o (a, b, c) p.
+Proof.
+  intros O I J K. assert (X : 0 < i * j * k) by nia.
+  assert (S : forall x y u v q, det (scale x u) (scale y v) q = x * y * det u v q) by (intros; unfold det, ea, eb, ec; cbn; ring).
+  assert (L : forall x y, 0 < x -> (0 <=? x * y) = (0 <=? y)) by (intros x y ?; destruct (Z.leb_spec 0 (x * y)), (Z.leb_spec 0 y); nia).
+  assert (M : forall x y, 0 < x -> (0 <? x * y) = (0 <? y)) by (intros x y ?; destruct (Z.ltb_spec 0 (x * y)), (Z.ltb_spec 0 y); nia).
+  assert (N : forall x y, 0 < x -> (x * y =? 0) = (y =? 0)) by (intros x y ?; destruct (Z.eqb_spec (x * y) 0), (Z.eqb_spec y 0); nia).
+  assert (P : forall x y e, 0 < x -> 0 < y -> x * y * e * (i * j * k * det a b c) = x * y * (i * j * k) * (e * det a b c)) by (intros; ring).
+  assert (T : forall x y e, 0 < x -> 0 < y -> (0 <=? x * y * e * (i * j * k * det a b c)) = (0 <=? e * det a b c) /\
+    (0 <? x * y * e * (i * j * k * det a b c)) = (0 <? e * det a b c)).
+  { intros x y e A B. rewrite P by assumption. assert (0 < x * y * (i * j * k)) by (repeat apply Z.mul_pos_pos; assumption).
+    split; [now apply L|now apply M]. }
+  destruct (T j k (det b c p) J K) as [L0 M0], (T k i (det c a p) K I) as [L1 M1], (T i j (det a b p) I J) as [L2 M2].
+  destruct O as [-> | ->]; cbn [covers_by E0 E1 E2 D]; rewrite det_scale3, !S, N by assumption;
+    [rewrite L0, L1, L2|rewrite M0, M1, M2]; reflexivity.
+Qed.
 (* What is covered is not by the negated triangle. *)
 Theorem T4_negation r a b c p : covers r (a, b, c) p = true -> covers r (neg a, neg b, neg c) p = false.
 Proof.
   intros H. apply covers_spec in H as (HD & A & B & C). apply not_true_iff_false. unfold neg. rewrite covers_scale.
   rewrite A. destruct (sgn_unit _ HD) as [-> | ->]; cbn; lia.
+Qed.
+
+Theorem T4_negation_closed_open o a b c p : vw p <> 0 -> covers_by o (a, b, c) p = true -> covers_by o (neg a, neg b, neg c) p = false.
+Proof.
+  intros W H. apply not_true_iff_false. intros H'. apply covers_by_cone in H as [HD K], H' as [HD' K'].
+  apply cone_closed in K, K'; try assumption.
+  assert (X : D (neg a, neg b, neg c) = - D (a, b, c)) by (unfold D, neg; rewrite det_scale3; ring).
+  assert (X0 : E0 (neg a, neg b, neg c) p = E0 (a, b, c) p) by (unfold E0, neg, scale, det, ea, eb, ec; cbn [vx vy vw]; ring).
+  assert (X1 : E1 (neg a, neg b, neg c) p = E1 (a, b, c) p) by (unfold E1, neg, scale, det, ea, eb, ec; cbn [vx vy vw]; ring).
+  assert (X2 : E2 (neg a, neg b, neg c) p = E2 (a, b, c) p) by (unfold E2, neg, scale, det, ea, eb, ec; cbn [vx vy vw]; ring).
+  rewrite X, X0, X1, X2 in K'. pose proof (f_equal vw (cone_identity a b c p)) as I.
+  unfold scale, plus in I. cbn [vw] in I. set (d := D (a, b, c)) in *.
+  assert (Z0 : forall e, 0 <= e * d -> 0 <= e * - d -> e = 0).
+  { intros e A B. assert (e * d = 0) as Y by lia. apply Z.mul_eq_0 in Y. tauto. }
+  destruct K as (A & B & C), K' as (A' & B' & C').
+  rewrite (Z0 _ A A'), (Z0 _ B B'), (Z0 _ C C') in I. assert (d * vw p = 0) as Y by lia. apply Z.mul_eq_0 in Y. tauto.
 Qed.
 
 (* ------------------------------------------------------------------------ C3: the infinitely small step is one *)

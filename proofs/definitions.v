@@ -64,6 +64,16 @@ Definition covers (r : fill_rule) (t : tri) (p : vec) : bool :=
   let d := Z.sgn (D t) in
   negb (d =? 0) && (edge_sign r m1 m2 p =? d) && (edge_sign r m2 m0 p =? d) && (edge_sign r m0 m1 p =? d).
 
+(* C5: two more fill rules, of p itself. *)
+Inductive coverage_rule := by_rule (r : fill_rule) | closed | open.
+Definition covers_by (c : coverage_rule) (t : tri) (p : vec) : bool :=
+  let d := D t in
+  match c with
+  | by_rule r => covers r t p
+  | closed => negb (d =? 0) && (0 <=? E0 t p * d) && (0 <=? E1 t p * d) && (0 <=? E2 t p * d)
+  | open => negb (d =? 0) && (0 <? E0 t p * d) && (0 <? E1 t p * d) && (0 <? E2 t p * d)
+  end.
+
 (* ------------------------------------------------------------------------------------------- 3. Facing, culling *)
 
 Inductive culling := cull_none | cull_front | cull_back.
@@ -151,7 +161,7 @@ Record triangle := Triangle { c0 : vertex; c1 : vertex; c2 : vertex; index : Z; 
 Definition shape (t : triangle) : tri := (pos (c0 t), pos (c1 t), pos (c2 t)).
 
 Inductive depth_mode := depth_none | depth_clip | depth_clamp.
-Record draw := Draw { rule : fill_rule; counter_clockwise : bool; cull : culling; mode : depth_mode; depth_write : bool;
+Record draw := Draw { rule : coverage_rule; counter_clockwise : bool; cull : culling; mode : depth_mode; depth_write : bool;
                       scissor : option (Z * Z * Z * Z); triangles : list triangle }.
 
 (* V1: what a sample may hold as depth; initial depth may be anything. *)
@@ -201,7 +211,7 @@ Definition in_scissor (s : option (Z * Z * Z * Z)) (i j : Z) : bool :=
 
 (* M2: the fragments of a draw at sample p of pixel (i, j). *)
 Definition fragment_of (d : draw) (i j : Z) (p : vec) (t : triangle) : option fragment :=
-  if in_scissor (scissor d) i j && covers (rule d) (shape t) p && negb (is_culled (cull d) (counter_clockwise d) (shape t)) then
+  if in_scissor (scissor d) i j && covers_by (rule d) (shape t) p && negb (is_culled (cull d) (counter_clockwise d) (shape t)) then
     match depth_of (mode d) (depth_at (shape t) (height (c0 t)) (height (c1 t)) (height (c2 t)) p) with
     | Some k => Some (Fragment k t)
     | None => None
@@ -214,7 +224,7 @@ Fixpoint fragments_of d i j p (l : list triangle) : list fragment :=
   end.
 
 (* A sample of the image so far: count, the visible triangle with its draw's fill rule, depth as bits. *)
-Record sample := Sample { count : Z; visible : option (fill_rule * triangle); bits : Z }.
+Record sample := Sample { count : Z; visible : option (coverage_rule * triangle); bits : Z }.
 (* V1: an empty sample; without initial depth it is +inf, or -inf for GREATER. *)
 Definition no_depth (greater : bool) : Z := if greater then 4286578688 else 2139095040.
 Definition empty (greater : bool) (initial : option Z) : sample :=
@@ -235,10 +245,10 @@ Definition render_sample (greater : bool) (initial : option Z) (draws : list dra
   fold_left (draw_sample greater i j p) draws (empty greater initial).
 
 (* M1: where the attributes of a triangle are evaluated in a pixel. *)
-Definition value_place (centroid : bool) (samples : Z) (r : fill_rule) (t : tri) (i j : Z) : vec :=
+Definition value_place (centroid : bool) (samples : Z) (r : coverage_rule) (t : tri) (i j : Z) : vec :=
   let c := centre i j in
-  if (negb centroid && (Z.sgn (sumE t c) =? Z.sgn (D t))) || covers r t c then c
-  else match find (covers r t) (map (sample_at i j) (places samples)) with Some p => p | None => c end.
+  if (negb centroid && (Z.sgn (sumE t c) =? Z.sgn (D t))) || covers_by r t c then c
+  else match find (covers_by r t) (map (sample_at i j) (places samples)) with Some p => p | None => c end.
 
 Fixpoint attributes_at (how : list interpolation) (t : tri) (u0 u1 u2 : list Z) (p : vec) : list (Z * Z) :=
   match how, u0, u1, u2 with

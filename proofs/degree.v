@@ -9,7 +9,7 @@ Definition sum {A} (f : A -> Z) (l : list A) := fold_right (fun x s => f x + s) 
 Definition edges (t : tri) := let '(u, v, w) := t in [(u, v); (v, w); (w, u)].
 Definition swap (e : vec * vec) := (snd e, fst e).
 (* Closed and consistently oriented: each directed edge occurs as often as its reverse. *)
-Definition closed (mesh : list tri) := Permutation (flat_map edges mesh) (map swap (flat_map edges mesh)).
+Definition closed_mesh (mesh : list tri) := Permutation (flat_map edges mesh) (map swap (flat_map edges mesh)).
 (* The hull of the three vertices contains the origin of (X, Y, W). *)
 Definition contains_eye (t : tri) := let '(u, v, w) := t in
   exists k l m, 0 <= k /\ 0 <= l /\ 0 <= m /\ 0 < k + l + m /\ plus (scale k u) (plus (scale l v) (scale m w)) = zero.
@@ -222,7 +222,7 @@ Lemma sum_ext {A} (f g : A -> Z) l : (forall x, In x l -> f x = g x) -> sum f l 
 Proof. induction l; cbn; intros H; [reflexivity|]. unfold sum in *. rewrite (H a), IHl; auto. Qed.
 
 (* For points in general position, which perturbed samples are. *)
-Lemma degree_generic mesh p q : closed mesh -> (forall t, In t mesh -> ~ contains_eye t) -> (forall t, In t mesh -> generic t p q) ->
+Lemma degree_generic mesh p q : closed_mesh mesh -> (forall t, In t mesh -> ~ contains_eye t) -> (forall t, In t mesh -> generic t p q) ->
   sum (fun t => scover t p) mesh = sum (fun t => scover t q) mesh.
 Proof.
   intros C N G.
@@ -236,7 +236,7 @@ Proof.
 Qed.
 
 (* T2. Any samples p and q, each with any fill rule, on vertices and edges too; degenerate triangles in the mesh. *)
-Theorem T2_degree r s mesh p q : 0 < vw p -> 0 < vw q -> closed mesh -> (forall t, In t mesh -> ~ contains_eye t) ->
+Theorem T2_degree r s mesh p q : 0 < vw p -> 0 < vw q -> closed_mesh mesh -> (forall t, In t mesh -> ~ contains_eye t) ->
   degree r mesh p = degree s mesh q.
 Proof.
   intros Wp Wq C N.

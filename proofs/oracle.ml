@@ -13,7 +13,10 @@ let word table = table.(integer ())
 let big = Big_int_Z.big_int_of_int
 
 let rules =
-  [| Top_left; Top_right; Bottom_left; Bottom_right; Southwards; Southwards_west; Northwards; Northwards_west |]
+  Array.append
+    (Array.map (fun r -> By_rule r)
+       [| Top_left; Top_right; Bottom_left; Bottom_right; Southwards; Southwards_west; Northwards; Northwards_west |])
+    [| Closed; Open |]
 
 let read_viewport () =
   let finite () =

@@ -8,11 +8,10 @@ Open Scope Z_scope.
 (* The E_i at a covered sample, with the sign of D taken out: none is negative, and one is positive. *)
 Definition weights (t : tri) p := let s := Z.sgn (D t) in (s * E0 t p, s * E1 t p, s * E2 t p).
 
-Lemma covered_weights r t p : 0 < vw p -> covers r t p = true ->
+Lemma covered_weights r t p : 0 < vw p -> covers_by r t p = true ->
   let '(a, b, c) := weights t p in 0 <= a /\ 0 <= b /\ 0 <= c /\ 0 < a + b + c /\ D t <> 0.
 Proof.
-  intros W C. pose proof (covers_in_cone r t p C) as K. destruct t as [[m0 m1] m2].
-  assert (HD : D (m0, m1, m2) <> 0) by (apply covers_spec in C; tauto).
+  intros W C. destruct (covers_by_cone r t p C) as [HD K]. destruct t as [[m0 m1] m2].
   apply (cone_closed _ _ HD) in K. pose proof (cone_identity m0 m1 m2 p) as I. cbn zeta in I.
   unfold weights. set (t := (m0, m1, m2)) in *. set (d := D t) in *.
   assert (S : forall e, 0 <= e * d -> 0 <= Z.sgn d * e) by
@@ -33,14 +32,14 @@ Lemma fraction_positive n d : d <> 0 -> 0 < snd (fraction n d).
 Proof. unfold fraction. destruct (Z.ltb_spec d 0); cbn; lia. Qed.
 
 (* The depth of a triangle that covers anything is a number. *)
-Lemma depth_number r t z0 z1 z2 p : 0 < vw p -> covers r t p = true -> 0 < snd (depth_at t z0 z1 z2 p).
+Lemma depth_number r t z0 z1 z2 p : 0 < vw p -> covers_by r t p = true -> 0 < snd (depth_at t z0 z1 z2 p).
 Proof.
   intros W C. pose proof (covered_weights r t p W C) as H. unfold weights in H. cbn in H.
   apply fraction_positive. nia.
 Qed.
 
 (* I2 of a perspective attribute, as a mean with weights that are not negative. *)
-Lemma perspective_mean r t u0 u1 u2 p : 0 < vw p -> covers r t p = true ->
+Lemma perspective_mean r t u0 u1 u2 p : 0 < vw p -> covers_by r t p = true ->
   let '(a, b, c) := weights t p in attribute_at perspective t u0 u1 u2 p = (u0 * a + u1 * b + u2 * c, a + b + c).
 Proof.
   intros W C. pose proof (covered_weights r t p W C) as H. unfold weights in *. cbn zeta in *. cbn [attribute_at].
@@ -48,7 +47,7 @@ Proof.
 Qed.
 
 (* I3: at a covered sample the barycentrics are in 0..1 and add up to 1, as real numbers. *)
-Theorem I3_weights r t p : 0 < vw p -> covers r t p = true -> exists n0 n1 n2 d,
+Theorem I3_weights r t p : 0 < vw p -> covers_by r t p = true -> exists n0 n1 n2 d,
   barycentrics_at t p = [(n0, d); (n1, d); (n2, d)] /\ 0 < d /\
   0 <= n0 <= one * d /\ 0 <= n1 <= one * d /\ 0 <= n2 <= one * d /\ n0 + n1 + n2 = one * d.
 Proof.
@@ -61,7 +60,7 @@ Proof.
 Qed.
 
 (* I4: a perspective attribute stays in every range of float32 that holds its three values. *)
-Theorem I4_perspective r t u0 u1 u2 lo hi p : 0 < vw p -> covers r t p = true -> representable lo -> representable hi ->
+Theorem I4_perspective r t u0 u1 u2 lo hi p : 0 < vw p -> covers_by r t p = true -> representable lo -> representable hi ->
   lo <= u0 <= hi -> lo <= u1 <= hi -> lo <= u2 <= hi ->
   let '(n, d) := attribute_at perspective t u0 u1 u2 p in lo <= nearest n d <= hi.
 Proof.
@@ -69,7 +68,7 @@ Proof.
   destruct (weights t p) as [[a b] c]. rewrite M. apply nearest_range; try assumption; [tauto|]. split; nia.
 Qed.
 (* I4: a constant attribute is constant to the bit. *)
-Theorem I4_constant r t u p : 0 < vw p -> covers r t p = true -> representable u ->
+Theorem I4_constant r t u p : 0 < vw p -> covers_by r t p = true -> representable u ->
   let '(n, d) := attribute_at perspective t u u u p in nearest n d = u.
 Proof.
   intros W C R. pose proof (I4_perspective r t u u u u u p W C R R ltac:(lia) ltac:(lia) ltac:(lia)) as H.
@@ -78,7 +77,7 @@ Qed.
 Theorem I4_flat t u0 u1 u2 p : representable u0 -> let '(n, d) := attribute_at flat t u0 u1 u2 p in nearest n d = u0.
 Proof. intros R. cbn. rewrite <- (Z.mul_1_r u0) at 1. now apply nearest_exact. Qed.
 (* I3 and I4: barycentrics as stored are in 0..1. *)
-Theorem I4_barycentrics r t p : 0 < vw p -> covers r t p = true ->
+Theorem I4_barycentrics r t p : 0 < vw p -> covers_by r t p = true ->
   Forall (fun nd => 0 <= nearest (fst nd) (snd nd) <= one) (barycentrics_at t p).
 Proof.
   intros W C. destruct (I3_weights r t p W C) as (n0 & n1 & n2 & d & -> & Hd & A & B & K & _).
@@ -137,15 +136,15 @@ Qed.
 (* ------------------------------------------------------------------------------------------------ M1: the place *)
 
 (* The triangle covers its centroid place, so that I3 and I4 hold there. `p` is the sample at which it is visible. *)
-Theorem M1_centroid samples r t i j place : In place (places samples) -> covers r t (sample_at i j place) = true ->
-  covers r t (value_place true samples r t i j) = true.
+Theorem M1_centroid samples r t i j place : In place (places samples) -> covers_by r t (sample_at i j place) = true ->
+  covers_by r t (value_place true samples r t i j) = true.
 Proof.
-  intros I C. unfold value_place. cbn [negb andb orb]. destruct (covers r t (centre i j)) eqn:E; [exact E|].
-  destruct (find (covers r t) (map (sample_at i j) (places samples))) as [q|] eqn:F; [now apply find_some in F|].
+  intros I C. unfold value_place. cbn [negb andb orb]. destruct (covers_by r t (centre i j)) eqn:E; [exact E|].
+  destruct (find (covers_by r t) (map (sample_at i j) (places samples))) as [q|] eqn:F; [now apply find_some in F|].
   pose proof (find_none _ _ F (sample_at i j place) (in_map _ _ _ I)). congruence.
 Qed.
 (* With one sample a pixel it is the sample itself. *)
-Theorem M1_one_sample centroid r t i j : covers r t (centre i j) = true -> value_place centroid 1 r t i j = centre i j.
+Theorem M1_one_sample centroid r t i j : covers_by r t (centre i j) = true -> value_place centroid 1 r t i j = centre i j.
 Proof. intros C. unfold value_place. rewrite C, orb_true_r. reflexivity. Qed.
 
 (* --------------------------------------------------------------------------------------------------- S3: range *)

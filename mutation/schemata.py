@@ -70,17 +70,18 @@ class Path:
         self.active = {}  # of each file, the lines that the compiler sees
 
 
-ALWAYS = ["arguments.cpp", "grid.cpp", "reference.cpp", "surefill.cpp", "viewport.cpp"]
+ALWAYS = ["arguments.cpp", "exact/grid.cpp", "reference.cpp", "surefill.cpp", "viewport.cpp"]
+VECTOR = sorted(f"fast/{p.name}" for p in (ENGINE / "fast").glob("*-inl.hpp"))
 PATHS = {
     # What defines the engine's answers, and what the fast path falls back on.
-    "reference": Path("reference", ["arguments.cpp", "bounds.hpp", "conservative.hpp", "edge.hpp", "exact.hpp", "grid.cpp",
-                                    "grid.hpp", "reference.cpp", "triangle.hpp", "viewport.cpp"], ALWAYS,
+    "reference": Path("reference", ["arguments.cpp", "exact/bounds.hpp", "exact/conservative.hpp", "exact/edge.hpp", "exact/exact.hpp",
+                                    "exact/grid.cpp", "exact/grid.hpp", "reference.cpp", "exact/triangle.hpp", "viewport.cpp"], ALWAYS,
                       ["-DSUREFILL_REFERENCE_ONLY"]),
-    # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one. Halves of
-    # canvases of more than four tiles.
-    "fast": Path("fast", [*sorted(p.name for p in ENGINE.glob("*-inl.hpp")), "canvas.hpp", "culling.hpp", "exact_draw.cpp",
-                          "exact_draw.hpp", "team.hpp", "tiles.cpp"], [*ALWAYS, "exact_draw.cpp", "kernels.cpp", "tiles.cpp"],
-                 ["-DSUREFILL_LARGEST_WHOLE=16384", "-DHWY_COMPILE_ONLY_STATIC", "-march=x86-64-v3", "-maes", "-mpclmul"]),
+    # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one.
+    "fast": Path("fast", [*VECTOR, "exact/exact_draw.cpp", "exact/exact_draw.hpp",
+                          *(f"fast/{name}" for name in ("culling.hpp", "frame.cpp", "lists.hpp", "record.hpp", "store.hpp", "team.hpp", "tile.hpp"))],
+                 [*ALWAYS, "exact/exact_draw.cpp", "fast/frame.cpp", "fast/kernels.cpp"],
+                 ["-DHWY_COMPILE_ONLY_STATIC", "-march=x86-64-v3", "-maes", "-mpclmul"]),
 }
 
 
@@ -89,7 +90,7 @@ class Mutant:
         self.file, self.line_number, self.line, self.kind = file, line_number, line, kind
         self.start, self.end, self.replacement = start, end, replacement
         marked = line[:start] + "«" + line[start:end] + "»" + line[end:]
-        self.name = f"{file}: {' '.join(marked.split())}"  # for ever, unless the line itself changes
+        self.name = f"{os.path.basename(file)}: {' '.join(marked.split())}"  # for ever, unless the line itself changes
         self.function = ""
 
 
@@ -140,7 +141,7 @@ def find_active(path):
         for line in run_compiler(path, ["-E", ENGINE / source]).stdout.splitlines():
             marker = re.match(r'# (\d+) "(.*)"', line)
             if marker:
-                file, number = os.path.basename(marker[2]) if "/engine/src/" in marker[2] else "", int(marker[1])
+                file, number = marker[2].rpartition("/engine/src/")[2] if "/engine/src/" in marker[2] else "", int(marker[1])
                 continue
             if line.strip() and file:
                 path.active.setdefault(file, set()).add(number)
@@ -215,7 +216,7 @@ def run_compiler(path, arguments):
 
 def compile_engine(path, source, only_check):
     """With a sanitizer for accesses to memory, where there are pointers to go wrong."""
-    address = ["-fsanitize=address"] if path.fast and source in path.files + ["kernels.cpp"] else []
+    address = ["-fsanitize=address"] if path.fast and source in path.files + ["fast/kernels.cpp"] else []
     output = ["-fsyntax-only"] if only_check else ["-o", path.work / (source + ".o")]
     return run_compiler(path, [*DEFINED, *address, "-ferror-limit=0", "-c", path.work / "engine" / source, *output])
 

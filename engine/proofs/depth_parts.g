@@ -1,6 +1,6 @@
-# Depth in two float32 parts (Splitter in edges-inl.hpp, block-inl.hpp), in units of the quantum: sums of high parts are exact, so all error
+# Depth in two float32 parts of a small triangle (Splitter in edges-inl.hpp, AddSmall in draw_tile-inl.hpp), in units of the quantum: sums of high parts are exact, so all error
 # comes from low parts, over cells (cx, cy) of an area and samples (dx, dy) of a cell. With an error to be taken off of at most one
-# quantum, it stays below 56 units of 2^-24 (kSplitError); of a larger error two roundings more, for which there is a factor of 1 + 2^-20.
+# quantum, it stays below 56 units of 2^-24 (kSmallParts); of a larger error two roundings more, for which there is a factor of 1 + 2^-20.
 #   z, zx, zy  what is left of depth and of its steps when the high parts are taken away
 @s = float<ieee_32,ne>;
 zl = s(z); xl = s(zx); yl = s(zy);

@@ -1,4 +1,4 @@
-# Coverage of areas of 16 x 16 samples (kSmallBound in setup-inl.hpp): coefficients and start value are rounded to integers, all
+# Coverage of areas of 16 x 16 samples (kSmallBound in record.hpp): coefficients and start value are rounded to integers, all
 # steps are integer additions. The total stays below the bound of 16 units.
 #   as, bs  scaled coefficients, es the start value as computed in double, E the real start value
 @i = int<ne>;

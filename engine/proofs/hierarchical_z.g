@@ -1,13 +1,18 @@
-# The least depth of a tile, and of a block in an area (block-inl.hpp): from the depth at a first sample, the fall within
-# `reach` samples and the error, in double; fx = min(0, reach zx), gx = 8 zx for the second block of an area. With each
-# term at most 1, six or eight of them: below 16 units of 2^-53 of their sum, here 2.5 and 2.2. The worst case by hand: of
-# each magnitude as many units as roundings that it passes. So of abs(z) 3; of the fall, at most 63 (abs(zx) + abs(zy)), 6; of the
-# steps to the first sample 3, and these may be as much larger than the box: 3 of its size and 9 of 63 (abs(zx) + abs(zy)).
+# Depth of a large triangle in double (Large in draw_tile-inl.hpp): at a tile's first sample, z + (zx ax + zy ay); from there the least depth of the
+# tile and of an area's block, and the range of an area, by which hidden ones are left out and clipped ones are found. fx = min(0, zx), fy = min(0, zy),
+# times 63, 7 or 15 samples; the error bound is taken off. With each term at most 1, these are below 5 units of 2^-53 for 3 terms, 14 for 6, 26 for 8 and
+# more, where z_error has room for 16 a term (2 kEdgeErrorBound in set_up-inl.hpp). The worst case by hand, of each magnitude as many units as roundings that
+# it passes: of abs(z) 4; of the way to the tile, which is the box's size and 63 (abs(zx) + abs(zy)), 6; of 63 (abs(zx) + abs(zy)) besides, 48/63 of 5 and 15/63 of 4.
 @d = float<ieee_64,ne>;
-fall = d(d(d(fx) + d(fy)) - error);
-tile = d(d(ax) + d(d(ay) + d(z + fall)));
-area = d(z + d(d(ax) + d(ay)));
-block = d(area + d(fall + d(gx + gy)));
-{ |z| <= 1 /\ |error| <= 1 /\ |ax| <= 1 /\ |ay| <= 1 /\ |fx| <= 1 /\ |fy| <= 1 /\ |gx| <= 1 /\ |gy| <= 1
-  -> |tile - (ax + (ay + (z + ((fx + fy) - error))))| in [0, 15b-53]
-  /\ |block - ((z + (ax + ay)) + (((fx + fy) - error) + (gx + gy)))| in [0, 17b-53] }
+tile = d(z + d(d(ax) + d(ay)));
+fall = d(fx + fy);
+least = d(tile + d(d(63 * fall) - error));
+area = d(tile + d(d(rx) + d(ry)));
+dip = d(d(7 * fall) - error);
+block = d(area + d(dip + 8 * d(gx + gy)));
+low = d(d(area + d(15 * fall)) - error);
+{ |z| <= 1 /\ |error| <= 1 /\ |ax| <= 1 /\ |ay| <= 1 /\ |rx| <= 1 /\ |ry| <= 1 /\ |63 * fx| <= 1 /\ |63 * fy| <= 1 /\ |8 * gx| <= 1 /\ |8 * gy| <= 1
+  -> |tile - (z + (ax + ay))| in [0, 5b-53]
+  /\ |least - ((z + (ax + ay)) + (63 * (fx + fy) - error))| in [0, 14b-53]
+  /\ |block - (((z + (ax + ay)) + (rx + ry)) + ((7 * (fx + fy) - error) + 8 * (gx + gy)))| in [0, 26b-53]
+  /\ |low - ((((z + (ax + ay)) + (rx + ry)) + 15 * (fx + fy)) - error)| in [0, 26b-53] }

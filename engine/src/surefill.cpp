@@ -3,9 +3,9 @@
 // The public calls: check the arguments, set the floating-point state, take the path.
 #include "surefill/surefill.hpp"
 
+#include "fast/frame.hpp"
 #include "float_environment.hpp"
 #include "reference.hpp"
-#include "tiles.hpp"
 
 namespace surefill {
 namespace {

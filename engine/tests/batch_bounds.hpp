@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What a batch of the fast path promises those who draw it: boxes that hold all that is covered, integer edges that are
-// right where they are sure and exact where they can be, depth planes within their error bounds; under Grid, corners on
-// the grid. Checked by exact arithmetic, apart from any image: an image shows a bound that is too small at one sample
-// in millions, and one that is too large not at all.
+// What the records of the fast path promise those who draw them: boxes that hold all that is covered, lists of all
+// tiles in which something is, integer edges that are right where they are sure and exact where they can be, depth
+// planes within their error bounds. Checked by exact arithmetic, apart from any image: an image shows a bound that is
+// too small at one sample in millions, and one that is too large not at all.
 #ifndef SUREFILL_PROPERTIES_BATCH_BOUNDS_HPP
 #define SUREFILL_PROPERTIES_BATCH_BOUNDS_HPP
 
@@ -20,11 +20,11 @@
 #include <utility>
 #include <vector>
 
-#include "canvas.hpp"
 #include "exact/grid.hpp"
 #include "exact/triangle.hpp"
+#include "fast/frame.hpp"
+#include "fast/tile.hpp"
 #include "properties/generators/generators.hpp"
-#include "tiles.hpp"
 
 namespace surefill::properties {
 
@@ -90,24 +90,20 @@ class BatchBounds {
     if (crossing) region = {x, y, x + random_.between(1, 3), y + random_.between(1, 3)};
     job_ = {
         &draw_, 0, region, {location.x / 16.0, location.y / 16.0}, tie_shift(draw_.fill_rule), true, random_.one_in(3),
-        0,      0};
-    // What a lane does not set must not be looked at.
-    std::fill_n(reinterpret_cast<unsigned char*>(&batch_), sizeof batch_, static_cast<unsigned char>(0x7E));
+        false,  0, 0};
+    tiles_.columns = tiles_.rows = (size + fast::kTileSize - 1) / fast::kTileSize;
+    if (crossing) tiles_.columns = tiles_.rows = kMaxTargetSize / fast::kTileSize;
     Statistics statistics;
-    fast::kernels().set_up(job_, fast::BandSet(), 0, count, batch_, statistics);
-    if (statistics.triangles != count ||
-        statistics.clipped != static_cast<unsigned>(__builtin_popcount(batch_.clipped)) ||
-        statistics.small != static_cast<unsigned>(__builtin_popcount(batch_.live & batch_.small)) ||
-        statistics.small + statistics.medium !=
-            static_cast<unsigned>(__builtin_popcount(batch_.live & (batch_.medium | batch_.small))) ||
-        statistics.small + statistics.medium + statistics.large !=
-            static_cast<unsigned>(__builtin_popcount(batch_.live)))
+    set_up(0, count, statistics, [this](const fast::Record& r, const std::vector<std::uint32_t>& listed) {
+      record_[r.position] = r, is_drawn_[r.position] = true, listed_[r.position] = listed;
+    });
+    if (statistics.triangles != count || statistics.small + statistics.medium + statistics.large != drawn())
       return "the statistics count lanes";
     for (std::uint32_t lane = 0; lane < count; ++lane) check(lane);
-    expect(statistics.rasterized == (draw_.grid ? reached_ : static_cast<unsigned>(__builtin_popcount(batch_.live))),
-           "the statistics count what is drawn");
+    expect(statistics.rasterized == (draw_.grid ? reached_ : drawn()), "the statistics count what is drawn");
+    expect(statistics.clipped == clipped_, "the statistics count what Grid clips");
     expect(statistics.dropped == dropped_, "what is not finite is dropped");
-    if (random_.one_in(8)) shares(count, std::max(size, region.y1), statistics);
+    if (count > 1 && random_.one_in(8)) in_two(count, statistics);
     if (random_.one_in(256)) counts_all_triangles();
     if (clips_) return broken_;
     expect(statistics.signs_by_filter + statistics.signs_by_expansion <= unsure_,
@@ -125,7 +121,41 @@ class BatchBounds {
   void expect(bool holds, const char* what) {
     if (!holds && broken_.empty()) broken_ = what;
   }
-  static bool has(std::uint32_t lanes, std::uint32_t lane) { return (lanes >> lane & 1) != 0; }
+
+  // Sets up triangles, and visits each record and the tiles in which it is listed; where lists are full, in several
+  // steps.
+  template <typename Visit>
+  void set_up(std::uint32_t first, std::uint32_t count, Statistics& statistics, const Visit& visit) {
+    static fast::Scratch scratch;
+    static std::vector<std::uint16_t> items(fast::kPiecePairs);
+    alignas(128) static fast::Record records[6 * fast::kBatch];  // a clipped triangle becomes up to five
+    std::vector<std::uint32_t> begin(tiles_.tiles() + 2), tiles_of_record;
+    fast::Piece piece{&job_, first, first + count, records, 0, begin.data(), items.data()};
+    for (int steps = 0; piece.next < piece.end; ++steps) {
+      // What a record does not set must not be looked at.
+      std::fill_n(reinterpret_cast<unsigned char*>(records), sizeof records, static_cast<unsigned char>(0x7E));
+      fast::kernels().set_up(tiles_, piece, scratch, statistics);
+      expect(steps <= 8, "each step sets up a triangle");
+      if (!broken_.empty()) return;
+      for (std::uint32_t n = 0; n < piece.size; ++n) {
+        tiles_of_record.clear();
+        for (std::size_t tile = 0; tile < tiles_.tiles(); ++tile) {
+          for (std::uint32_t i = begin[tile]; i < begin[tile + 1]; ++i)
+            if (items[i] == n) tiles_of_record.push_back(static_cast<std::uint32_t>(tile));
+        }
+        if (records[n].fan_triangle() == 0 && !records[n].has(fast::Record::kByWinding))
+          visit(records[n], tiles_of_record);
+      }
+    }
+  }
+  std::uint64_t drawn() const {
+    return static_cast<std::uint64_t>(std::count(is_drawn_.begin(), is_drawn_.end(), true));
+  }
+  bool is_listed(std::uint32_t lane, int x, int y) const {
+    const auto tile = static_cast<std::uint32_t>((y >> fast::kTileLog2) * tiles_.columns + (x >> fast::kTileLog2));
+    return std::count(listed_[lane].begin(), listed_[lane].end(), tile) == 1;
+  }
+
   // Ordinals are below kNoTriangle, over all draws: one triangle more, and the fast path cannot draw the frame.
   void counts_all_triangles() {
     constexpr std::size_t kEach = std::size_t{1} << 20;
@@ -261,7 +291,7 @@ class BatchBounds {
     if (finite && !determinant_is_clear(lane)) ++unsure_;
     const bool front = drawn && (triangle_.determinant() > 0) == (draw_.front_face == FrontFace::clockwise);
     const bool culled = draw_.cull == Cull::front ? front : draw_.cull == Cull::back && !front;
-    const bool live = has(batch_.live, lane);
+    const bool live = is_drawn_[lane];
     expect(!live || (drawn && !culled), "what is live is a triangle that is not culled");
     if (!drawn || culled) return;
     const PixelBox exact_box = screen_box(*v[0], *v[1], *v[2], job_.region, std::min(job_.sample.x, job_.sample.y),
@@ -288,43 +318,25 @@ class BatchBounds {
     what_is_set_up(lane, v);
   }
 
-  // Each of several threads sets up what reaches its bands, and all together count as one alone.
-  void shares(std::uint32_t count, int height, const Statistics& alone) {
-    const int threads = random_.between(2, 3), bands = (height + fast::kTileSize - 1) >> fast::kTileLog2;
+  // Set up in two pieces, the triangles become the same records and count together as in one.
+  void in_two(std::uint32_t count, const Statistics& alone) {
+    const std::uint32_t middle = 1 + random_.below(count - 1);
     Statistics sum;
-    for (int thread = 0; thread < threads; ++thread) {
-      const fast::BandSet owned(thread, threads, 0, bands, bands);
-      fast::Batch share;
-      std::fill_n(reinterpret_cast<unsigned char*>(&share), sizeof share, static_cast<unsigned char>(0x7E));
-      fast::kernels().set_up(job_, owned, 0, count, share, sum);
-      for (std::uint32_t lane = 0; lane < count; ++lane) {
-        if (has(share.live, lane)) {
-          bool same = has(batch_.live, lane) && share.first_x[lane] == batch_.first_x[lane] &&
-                      share.last_x[lane] == batch_.last_x[lane] && share.first_y[lane] == batch_.first_y[lane] &&
-                      share.last_y[lane] == batch_.last_y[lane];
-          for (std::size_t i = 0; i < 3; ++i) same = same && share.e[i][lane] == batch_.e[i][lane];
-          expect(same, "a thread's share is what one alone has");
-        } else if (has(batch_.live, lane)) {
-          for (int y = batch_.first_y[lane]; y <= batch_.last_y[lane]; ++y)
-            expect(!owned.owns(y >> fast::kTileLog2), "what reaches a thread's bands is set up");
-        }
-      }
-    }
-    const int sets = random_.between(1, 3), begin = random_.between(0, bands - 1),
-              end = random_.between(begin + 1, bands);
-    for (int band = 0; band <= bands; ++band) {
-      int owners = 0;
-      for (int set = 0; set < sets; ++set) owners += fast::BandSet(set, sets, begin, end, bands).owns(band) ? 1 : 0;
-      expect(band >= begin && band < end ? owners == 1 : owners == 0 || end - begin == bands,
-             "a band at hand belongs to one set, and no other does");
-    }
+    const auto same_as_alone = [this](const fast::Record& r, const std::vector<std::uint32_t>& listed) {
+      const fast::Record& other = record_[r.position];
+      bool same = is_drawn_[r.position] && r.flags == other.flags && r.x0 == other.x0 && r.x1 == other.x1 &&
+                  r.y0 == other.y0 && r.y1 == other.y1 && listed == listed_[r.position];
+      for (std::size_t k = 0; k < 3 && r.has(fast::Record::kSmall); ++k)
+        same = same && r.small.e[k] == other.small.e[k];
+      expect(same, "a piece's records do not depend on where it begins");
+    };
+    set_up(0, middle, sum, same_as_alone), set_up(middle, count - middle, sum, same_as_alone);
     expect(sum.triangles == alone.triangles && sum.dropped == alone.dropped && sum.degenerate == alone.degenerate &&
                sum.culled == alone.culled && sum.outside == alone.outside && sum.rasterized == alone.rasterized &&
                sum.small == alone.small && sum.medium == alone.medium && sum.large == alone.large &&
                sum.clipped == alone.clipped && sum.signs_by_filter == alone.signs_by_filter &&
-               sum.signs_by_expansion == alone.signs_by_expansion && sum.values_by_filter == alone.values_by_filter &&
-               sum.values_by_expansion == alone.values_by_expansion,
-           "threads count together as one alone");
+               sum.signs_by_expansion == alone.signs_by_expansion,
+           "pieces count together as one");
   }
 
   // The same under Grid, for the triangle on the grid.
@@ -341,16 +353,14 @@ class BatchBounds {
     const bool clipped = finite && !whole;
     const bool clipped_is_seen = clipped && some && !snapped_.box(job_.region, least, most).empty();
     clips_ = clips_ || clipped;
-    if (clipped_is_seen) ++reached_;
-    expect(has(batch_.clipped, lane) == clipped_is_seen, "`clipped` is what the guard band cuts");
-    expect(whole || !has(batch_.live, lane), "what is not within the guard band is not drawn as it is");
+    if (clipped_is_seen) ++reached_, ++clipped_;
+    expect(whole || !is_drawn_[lane], "what is not within the guard band is not drawn as it is");
     if (!whole) return;
 
     const int units_per_pixel = 16 << draw_.grid->bits;
     std::int64_t x[3], y[3];
     for (std::size_t k = 0; k < 3; ++k) {
       const SamplePosition corner = snapped_.corner(static_cast<int>(k));
-      expect(batch_.corner_x[k][lane] == corner.x && batch_.corner_y[k][lane] == corner.y, "corners are on the grid");
       corner_[k] = corner;
       x[k] = static_cast<std::int64_t>(corner.x * units_per_pixel);
       y[k] = static_cast<std::int64_t>(corner.y * units_per_pixel);
@@ -368,7 +378,7 @@ class BatchBounds {
     const std::int64_t left = (x[1] - x[0]) * (y[2] - y[0]), right = (y[1] - y[0]) * (x[2] - x[0]);
     sign_ = left > right ? 1 : left < right ? -1 : 0;
     const bool culled = draw_.cull == Cull::front ? sign_ > 0 : draw_.cull == Cull::back && sign_ < 0;
-    const bool live = has(batch_.live, lane);
+    const bool live = is_drawn_[lane];
     expect(live == (reached && sign_ != 0 && !culled), "what is live reaches samples, has an area and is not culled");
     if (!live || !broken_.empty()) return;
     take_box(lane);
@@ -379,13 +389,21 @@ class BatchBounds {
     }
     triangle_.set_up(*v[0], *v[1], *v[2], statistics);  // its depth is that of the triangle as it was
     what_is_set_up(lane, v);
-    float range[3];
-    for (std::size_t k = 0; k < 3; ++k)
-      range[k] = std::clamp(v[k]->z / v[k]->w, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
-    const float low = std::min({range[0], range[1], range[2]}), high = std::max({range[0], range[1], range[2]});
-    expect(batch_.z_least[lane] == (job_.greater ? -high : low) && batch_.z_most[lane] == (job_.greater ? -low : high),
-           "the range of depth is that of the corners");
-    for (const float end : {batch_.z_least[lane], batch_.z_most[lane]})
+  }
+
+  // What depth is clamped to: under Grid the corners' range, with depth clamping 0..1.
+  void range(const fast::Record& r, const Vertex* const (&v)[3]) {
+    float low = -kInfinity, high = kInfinity;
+    if (draw_.grid) {
+      float z[3];
+      for (std::size_t k = 0; k < 3; ++k)
+        z[k] = std::clamp(v[k]->z / v[k]->w, -std::numeric_limits<float>::max(), std::numeric_limits<float>::max());
+      low = std::min({z[0], z[1], z[2]}), high = std::max({z[0], z[1], z[2]});
+    }
+    if (draw_.depth_mode == DepthMode::clamp) low = std::clamp(low, 0.0f, 1.0f), high = std::clamp(high, 0.0f, 1.0f);
+    expect(r.z_least == (job_.greater ? -high : low) && r.z_most == (job_.greater ? -low : high),
+           "the range of depth is that of the corners, and 0..1");
+    for (const float end : {r.z_least, r.z_most})
       expect(end != 0 || !std::signbit(end), "the range of depth has no -0");
   }
 
@@ -404,7 +422,8 @@ class BatchBounds {
 
   // D is far larger than any error of D = sum W_i E_i in double.
   bool determinant_is_clear(std::uint32_t lane) {
-    const double x = batch_.origin_x(lane) + job_.sample.x, y = batch_.origin_y(lane) + job_.sample.y;
+    const double x = is_drawn_[lane] ? record_[lane].x0 + 1 : job_.region.x1,
+                 y = is_drawn_[lane] ? record_[lane].y0 + 1 : job_.region.y1;
     double terms = 0;
     for (int i = 0; i < 3; ++i) {
       const EdgeFunction& edge = triangle_.edge(i);
@@ -414,19 +433,46 @@ class BatchBounds {
   }
 
   void take_box(std::uint32_t lane) {
-    x0_ = batch_.first_x[lane], x1_ = batch_.last_x[lane], y0_ = batch_.first_y[lane], y1_ = batch_.last_y[lane];
-    origin_x_ = batch_.origin_x(lane), origin_y_ = batch_.origin_y(lane);
+    const fast::Record& r = record_[lane];
+    x0_ = r.x0, x1_ = r.x1, y0_ = r.y0, y1_ = r.y1;
+    const int low = r.has(fast::Record::kSmall) ? 3 : 7;
+    origin_x_ = x0_ & ~low, origin_y_ = y0_ & ~low;
   }
 
   void what_is_set_up(std::uint32_t lane, const Vertex* const (&v)[3]) {
-    const bool small = has(batch_.small, lane), medium = has(batch_.medium, lane);
+    const fast::Record& r = record_[lane];
+    const bool small = r.has(fast::Record::kSmall);
     expect(small == (x1_ - (x0_ & ~3) < 16 && y1_ - (y0_ & ~3) < 16), "`small` is 4 x 4 cells");
-    expect(has(batch_.tiny, lane) == (x1_ - x0_ < 2 && y1_ - y0_ < 2), "`tiny` is 2 x 2 samples");
-    expect(medium == (x1_ - (x0_ & ~7) < 64 && y1_ - (y0_ & ~7) < 64), "`medium` is 8 x 8 blocks");
-    expect(has(batch_.negative, lane) == (sign_ < 0), "`negative` is D < 0");
-    if (small || medium) edges(lane, small ? 16 : 64);
-    if (small || medium) doubt(lane, small ? 24 : 22, small ? 16 : 64);
-    if (!small) unscaled_edges(lane);
+    if (small) {
+      Integers integers{{}, {}, {}, r.small.doubt, origin_x_, origin_y_, x0_, x1_, y0_, y1_};
+      for (std::size_t i = 0; i < 3; ++i)
+        integers.a[i] = r.small.a[i], integers.b[i] = r.small.b[i], integers.e[i] = r.small.e[i];
+      edges(integers, 16);
+    } else {
+      scaled_edges(r);
+      // In some tile of the box.
+      const int tile_x = random_.between(x0_ >> 6, x1_ >> 6) * 64, tile_y = random_.between(y0_ >> 6, y1_ >> 6) * 64;
+      const fast::TileEdges of(r, tile_x + job_.sample.x, tile_y + job_.sample.y);
+      Integers integers{{},
+                        {},
+                        {},
+                        of.doubt,
+                        tile_x,
+                        tile_y,
+                        std::max(x0_, tile_x),
+                        std::min(x1_, tile_x + 63),
+                        std::max(y0_, tile_y),
+                        std::min(y1_, tile_y + 63)};
+      for (std::size_t i = 0; i < 3; ++i) integers.a[i] = of.a[i], integers.b[i] = of.b[i], integers.e[i] = of.e[i];
+      edges(integers, 64);
+    }
+    doubt(small ? r.small.doubt : r.has(fast::Record::kInteger) ? 0 : 2 * 64, small ? 24 : 22, small ? 16 : 64);
+    for_some_samples([&](int x, int y) {
+      bool inside = true;
+      for (std::size_t i = 0; i < 3; ++i) inside = inside && is_inside(i, x, y);
+      if (inside) expect(is_listed(lane, x, y), "a tile in which something is covered has the triangle in its list");
+    });
+    range(r, v);
     depth(lane, v);
   }
 
@@ -459,21 +505,25 @@ class BatchBounds {
     for (int n = 0; n < 6; ++n) visit(random_.between(x0_, x1_), random_.between(y0_, y1_));
   }
 
+  bool is_inside(std::size_t i, int x, int y) {
+    const int sign = edge_sign(i, at(x, y));
+    return (sign != 0 ? sign : tie_sign(line_[i].a, line_[i].b, job_.shift)) == sign_;
+  }
+
+  // Edges in integers about an origin, for the samples of a box.
+  struct Integers {
+    std::int64_t a[3], b[3], e[3], doubt;
+    int origin_x, origin_y, x0, x1, y0, y1;
+  };
+
   // Of an edge in integers, v >= 0 says inside and v < -doubt says outside.
-  void edges(std::uint32_t lane, int reach) {
-    const std::int64_t doubt = batch_.doubt[lane];
+  void edges(const Integers& of, int reach) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t a = batch_.a[i][lane], b = batch_.b[i][lane], e = batch_.e[i][lane];
+      const std::int64_t a = of.a[i], b = of.b[i], e = of.e[i];
       const Line& edge = line_[i];
-      const auto value = [&](int x, int y) { return e + a * (x - origin_x_) + b * (y - origin_y_); };
-      const auto inside = [&](int x, int y) {
-        const int sign = edge_sign(i, at(x, y));
-        return (sign != 0 ? sign : tie_sign(edge.a, edge.b, job_.shift)) == sign_;
-      };
-      const std::int64_t rise = 3 * (std::max<std::int64_t>(a, 0) + std::max<std::int64_t>(b, 0));
-      expect(batch_.most[i][lane] == rise + doubt, "`most` is the largest change, and the doubt");
+      const auto value = [&](int x, int y) { return e + a * (x - of.origin_x) + b * (y - of.origin_y); };
       const int steps = reach - 1;
-      const std::int64_t far = steps * (std::abs(a) + std::abs(b)) + std::abs(e) + 2 * doubt;
+      const std::int64_t far = steps * (std::abs(a) + std::abs(b)) + std::abs(e) + 2 * of.doubt;
       expect(far < std::numeric_limits<std::int32_t>::max(), "integer edges do not overflow");
       expect(edge.a == 0 || std::fabs(edge.a) < std::fabs(edge.b) || std::abs(a) >= 1 << 21,
              "steps in x have their bits");
@@ -481,22 +531,23 @@ class BatchBounds {
              "steps in y have their bits");
       const auto judge = [&](int x, int y) {
         const std::int64_t at_sample = value(x, y);
-        if (at_sample >= 0) expect(inside(x, y), "what is surely inside is");
-        if (at_sample < -doubt) expect(!inside(x, y), "what is surely outside is");
+        if (at_sample >= 0) expect(is_inside(i, x, y), "what is surely inside is");
+        if (at_sample < -of.doubt) expect(!is_inside(i, x, y), "what is surely outside is");
       };
-      for_some_samples(judge);
-      // Where the edge crosses a row or a column: as near as samples come to it.
-      for (int n = 0; n < 4; ++n) {
-        const int x = random_.between(x0_, x1_), y = random_.between(y0_, y1_);
+      judge(of.x0, of.y0), judge(of.x1, of.y0), judge(of.x0, of.y1), judge(of.x1, of.y1);
+      // Anywhere, and where the edge crosses a row or a column: as near as samples come to it.
+      for (int n = 0; n < 6; ++n) {
+        const int x = random_.between(of.x0, of.x1), y = random_.between(of.y0, of.y1);
+        judge(x, y);
         if (b != 0) {
-          const std::int64_t crossing = origin_y_ - (e + a * (x - origin_x_)) / b;
+          const std::int64_t crossing = of.origin_y - (e + a * (x - of.origin_x)) / b;
           for (std::int64_t near = crossing - 1; near <= crossing + 1; ++near)
-            if (near >= y0_ && near <= y1_) judge(x, static_cast<int>(near));
+            if (near >= of.y0 && near <= of.y1) judge(x, static_cast<int>(near));
         }
         if (a != 0) {
-          const std::int64_t crossing = origin_x_ - (e + b * (y - origin_y_)) / a;
+          const std::int64_t crossing = of.origin_x - (e + b * (y - of.origin_y)) / a;
           for (std::int64_t near = crossing - 1; near <= crossing + 1; ++near)
-            if (near >= x0_ && near <= x1_) judge(static_cast<int>(near), y);
+            if (near >= of.x0 && near <= of.x1) judge(static_cast<int>(near), y);
         }
       }
     }
@@ -516,7 +567,7 @@ class BatchBounds {
   // Twice the bound of rounding. There is none exactly if all edges are integers in units of the scale: a and b, and c
   // in 2^-10 of them; under Grid, where corners are integers anyway, if the scale has bits for the smallest value
   // (grid-inl.hpp).
-  void doubt(std::uint32_t lane, int exponent, int bound) {
+  void doubt(std::int64_t actual, int exponent, int bound) {
     bool none = true;
     for (const Line& line : line_) {
       const double largest = std::max({std::fabs(line.a), std::fabs(line.b), 0x1p-400});
@@ -530,11 +581,11 @@ class BatchBounds {
             none && line.exact && whole(line.a * scale) && whole(line.b * scale) && whole(c) && std::fabs(c) < 0x1p52;
       }
     }
-    expect(batch_.doubt[lane] == (none ? 0 : 2 * bound), "edges are without doubt where they can be");
+    expect(actual == (none ? 0 : 2 * bound), "edges are without doubt where they can be");
   }
 
-  // In double, with D's sign; their rounding is what a tile's bound allows for.
-  void unscaled_edges(std::uint32_t lane) {
+  // In double, with D's sign, times a power of two; their rounding is what a tile's bound allows for.
+  void scaled_edges(const fast::Record& r) {
     for (std::size_t i = 0; i < 3; ++i) {
       const Line& line = line_[i];
       const auto near = [](double actual, double exact, double terms) {
@@ -551,42 +602,30 @@ class BatchBounds {
       }
       const auto terms = [&](std::size_t p, std::size_t q) { return std::fabs(j[p] * k[q]) + std::fabs(j[q] * k[p]); };
       const double c_terms = draw_.grid ? 2 * (std::fabs(line.a * j[0]) + std::fabs(line.b * j[1])) : terms(0, 1);
-      expect(near(batch_.edge_a[i][lane], sign_ * line.a, terms(1, 2)) &&
-                 near(batch_.edge_b[i][lane], sign_ * line.b, terms(2, 0)) &&
-                 near(batch_.edge_c[i][lane], sign_ * line.c, c_terms),
-             "unscaled edges are the triangle's");
+      const double scale = std::ldexp(1, 22 - std::ilogb(std::max({std::fabs(line.a), std::fabs(line.b), 0x1p-400})));
+      expect(near(r.large.a[i] / scale, sign_ * line.a, terms(1, 2)) &&
+                 near(r.large.b[i] / scale, sign_ * line.b, terms(2, 0)) &&
+                 near(r.large.c[i] / scale, sign_ * line.c, c_terms),
+             "scaled edges are the triangle's");
     }
   }
 
   // As cells put it together: high parts are exact, and depth lies between the sums with the two low parts.
-  void depth_in_parts(std::uint32_t lane, const mpq_class& determinant) {
-    const float error = batch_.low_error[lane];
-    const double slopes = std::fabs(batch_.z_x[lane]) + std::fabs(batch_.z_y[lane]);
-    const double largest = std::fabs(batch_.z[lane]) + 18 * slopes;
-    expect(error <= 1.001 * batch_.z_error[lane] + 0x1p-40 * largest + 0x1p-140, "parts add little to the error");
-    // As docs/precision.md has it: 56 units of 2^-46 of the power of two at or below the largest part.
-    const double columns = x1_ - origin_x_, rows = y1_ - origin_y_;
-    const double size = std::fabs(batch_.z[lane]) +
-                        (std::fabs(batch_.z_x[lane]) * columns + std::fabs(batch_.z_y[lane]) * rows) + 3 * slopes;
-    if (batch_.z_error[lane] != 0) {
-      const double power = std::ldexp(1, std::ilogb(std::max(size, 0x1p-100)));
-      expect(error >= batch_.z_error[lane] + 56 * 0x1p-46 * power, "the error of the parts holds that of splitting");
-    }
-    expect(error >= batch_.z_error[lane], "the error of the parts holds that of the plane");
-    const auto step = [&](int x, int y, const float(&along_x)[fast::kBatch], const float(&along_y)[fast::kBatch]) {
-      return along_x[lane] * static_cast<float>(x) + along_y[lane] * static_cast<float>(y);
+  void depth_in_parts(const fast::Record& r, const mpq_class& determinant) {
+    const float error = r.small.low_error;
+    const auto step = [&](int x, int y, float along_x, float along_y) {
+      return along_x * static_cast<float>(x) + along_y * static_cast<float>(y);
     };
     const auto judge = [&](int x, int y) {
       const int dx = x - origin_x_, dy = y - origin_y_, cx = dx >> 2, cy = dy >> 2;
-      const auto sum = [&](float start, const auto& along_x, const auto& along_y, float offset) {
+      const auto sum = [&](float start, float along_x, float along_y, float offset) {
         return (start + 4 * step(cx, cy, along_x, along_y)) + (step(dx & 3, dy & 3, along_x, along_y) + offset);
       };
-      const float high = sum(batch_.high[lane], batch_.high_x, batch_.high_y, 0);
-      const mpq_class exact =
-          mpq_class(batch_.high[lane]) + mpq_class(batch_.high_x[lane]) * dx + mpq_class(batch_.high_y[lane]) * dy;
+      const float high = sum(r.small.high, r.small.high_x, r.small.high_y, 0);
+      const mpq_class exact = mpq_class(r.small.high) + mpq_class(r.small.high_x) * dx + mpq_class(r.small.high_y) * dy;
       expect(exact == mpq_class(high), "sums of high parts are exact");
-      const float least = sum(batch_.low[lane], batch_.low_x, batch_.low_y, -error),
-                  most = sum(batch_.low[lane], batch_.low_x, batch_.low_y, error);
+      const float least = sum(r.small.low, r.small.low_x, r.small.low_y, -error),
+                  most = sum(r.small.low, r.small.low_x, r.small.low_y, error);
       mpq_class real = sum_of(triangle_.exact_depth_numerator(at(x, y))) / determinant;
       if (job_.greater) real = -real;
       expect(mpq_class(high) + mpq_class(least) <= real && real <= mpq_class(high) + mpq_class(most),
@@ -598,7 +637,10 @@ class BatchBounds {
   void depth(std::uint32_t lane, const Vertex* const (&v)[3]) {
     bool within = true;
     for (const Vertex* vertex : v) within = within && vertex->w > 0 && vertex->z >= 0 && vertex->z <= vertex->w;
-    expect(has(batch_.clip, lane) == (draw_.depth_mode != DepthMode::none && !within), "`clip` is what may be clipped");
+    const fast::Record& r = record_[lane];
+    const bool small = r.has(fast::Record::kSmall);
+    expect(r.has(fast::Record::kClip) == (draw_.depth_mode == DepthMode::clip && !within),
+           "`clip` is what may be clipped");
     const mpq_class determinant = sum_of(triangle_.exact_determinant_value());
     double size = 0, terms = 0;
     for (std::size_t i = 0; i < 3; ++i) {
@@ -609,13 +651,16 @@ class BatchBounds {
     }
     const double d = std::fabs(determinant.get_d()), least = std::min({v[0]->w, v[1]->w, v[2]->w});
     const bool well_shaped = least > 0 && terms < 0x1p20 * d;  // and in front of the eye
-    if (has(batch_.slow_depth, lane)) {
+    if (r.has(fast::Record::kSlowDepth)) {
       expect(!well_shaped || size / least * (terms / d) > 1e30, "depth is known where it can be");
       return;
     }
     expect(determinant != 0, "without D, no depth is known");
     if (!broken_.empty()) return;
-    const double z = batch_.z[lane], zx = batch_.z_x[lane], zy = batch_.z_y[lane], error = batch_.z_error[lane];
+    const double z = small ? r.small.high + static_cast<double>(r.small.low) : r.large.z;
+    const double zx = small ? r.small.high_x + static_cast<double>(r.small.low_x) : r.large.z_x;
+    const double zy = small ? r.small.high_y + static_cast<double>(r.small.low_y) : r.large.z_y;
+    const double error = small ? static_cast<double>(r.small.low_error) : r.large.z_error;
     expect(error >= 0, "there is an error bound of depth");
     expect(std::fabs(z) + error < 1e37, "what is known of depth has a float32");
     if (!broken_.empty()) return;
@@ -625,10 +670,11 @@ class BatchBounds {
       const double value = z + (zx * (x - origin_x_) + zy * (y - origin_y_));
       expect(abs(real - value) <= error, "the error bound of depth holds");
     });
-    if (has(batch_.small, lane)) depth_in_parts(lane, determinant);
+    if (small) depth_in_parts(r, determinant);
     if (well_shaped) {
       const double slope = (std::fabs(zx) + std::fabs(zy)) * (64 + (x1_ - x0_) + (y1_ - y0_)) + std::fabs(z);
-      expect(error <= 0x1p-46 * (size / least + slope) * (terms / d),
+      const double parts = small ? 0x1p-40 * (std::fabs(z) + 18 * (std::fabs(zx) + std::fabs(zy))) + 0x1p-140 : 0;
+      expect(error <= 1.001 * 0x1p-46 * (size / least + slope) * (terms / d) + parts,
              "the error bound of depth is no wider than need be");
     }
   }
@@ -636,7 +682,11 @@ class BatchBounds {
   Random random_;
   Draw draw_;
   fast::DrawJob job_{};
-  fast::Batch batch_;
+  fast::TileGrid tiles_;
+  // Of each triangle: its record, if it has one, and the tiles that list it.
+  std::array<fast::Record, fast::kBatch> record_{};
+  std::array<bool, fast::kBatch> is_drawn_{};
+  std::array<std::vector<std::uint32_t>, fast::kBatch> listed_;
   Triangle triangle_;
   SnappedTriangle snapped_;
   SamplePosition corner_[3] = {};  // of the snapped triangle
@@ -646,9 +696,9 @@ class BatchBounds {
     bool exact;
   };
   Line line_[3] = {};
-  int sign_ = 0;                             // of D
-  std::uint64_t dropped_ = 0, reached_ = 0;  // lanes
-  std::uint64_t unsure_ = 0, turns_ = 0;     // signs and positions that may have to be looked up
+  int sign_ = 0;                                           // of D
+  std::uint64_t dropped_ = 0, reached_ = 0, clipped_ = 0;  // triangles
+  std::uint64_t unsure_ = 0, turns_ = 0;                   // signs and positions that may have to be looked up
   bool clips_ = false;
   int x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0, origin_x_ = 0, origin_y_ = 0;
   std::string broken_;

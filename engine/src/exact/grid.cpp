@@ -258,13 +258,13 @@ PixelBox SnappedTriangle::box(PixelBox limits, double least_offset, double large
 
 // Edges that cross the ray from the perturbed sample towards +x, with their direction. Differences of coordinates are
 // below 2^31 + 2^18 in magnitude and their products below 2^63; these are compared and not subtracted.
-int SnappedTriangle::winding(SamplePosition p, TieShift shift) const {
+int SnappedTriangle::winding(const Point* corner, int corners, SamplePosition p, TieShift shift) const {
   const auto px = static_cast<std::int64_t>(p.x * units_per_pixel_);
   const auto py = static_cast<std::int64_t>(p.y * units_per_pixel_);
   const auto beyond = [&](const Point& a) { return a.y > py || (a.y == py && shift.y < 0); };  // y above the sample's
   int sum = 0;
-  for (int n = 0; n < polygon_.corners; ++n) {
-    const Point &from = point_[n], &to = point_[(n + 1) % polygon_.corners];
+  for (int n = 0; n < corners; ++n) {
+    const Point &from = corner[n], &to = corner[n + 1 < corners ? n + 1 : 0];
     if (beyond(from) == beyond(to)) continue;
     const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
     const std::int64_t left = dx * (py - from.y), right = dy * (px - from.x);  // E(p) = left - right; a = -dy, b = dx

@@ -64,7 +64,12 @@ class SnappedTriangle {
   PixelBox box(PixelBox limits, double least_offset, double largest_offset) const;
 
   // N(p) of G1: -1, 0 or 1.
-  int winding(SamplePosition p, TieShift shift) const;
+  int winding(SamplePosition p, TieShift shift) const { return winding(point_, polygon_.corners, p, shift); }
+  // Does the triangle of corners 0, n and n + 1 cover p?
+  bool fan_covers(int n, SamplePosition p, TieShift shift) const {
+    const Point triangle[3] = {point_[0], point_[n], point_[n + 1]};
+    return winding(triangle, 3, p, shift) != 0;
+  }
 
   // Depth at p as G2 and I4 have it; false if depth clipping removes the fragment (I5).
   bool depth(SamplePosition p, DepthMode mode, float* stored, Statistics& statistics);
@@ -83,6 +88,7 @@ class SnappedTriangle {
     std::int64_t x, y;
   };
 
+  int winding(const Point* corner, int corners, SamplePosition p, TieShift shift) const;
   void know_depth_range();
 
   Triangle triangle_;  // unsnapped

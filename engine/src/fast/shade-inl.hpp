@@ -3,16 +3,16 @@
 // Barycentrics and attributes of what is seen: a row of a block at a time, each pixel a lane with its own triangle, in
 // double with error bounds; where a bound cannot tell which float32 is nearest, the scalar Triangle.
 // Included once for each instruction set by kernels.cpp.
-#if defined(SUREFILL_SRC_SHADE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef SUREFILL_SRC_SHADE_INL_HPP
-#undef SUREFILL_SRC_SHADE_INL_HPP
+#if defined(SUREFILL_SRC_FAST_SHADE_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREFILL_SRC_FAST_SHADE_INL_HPP
+#undef SUREFILL_SRC_FAST_SHADE_INL_HPP
 #else
-#define SUREFILL_SRC_SHADE_INL_HPP
+#define SUREFILL_SRC_FAST_SHADE_INL_HPP
 #endif
 
 #include <cstring>
 
-#include "edges-inl.hpp"
+#include "fast/edges-inl.hpp"
 #include "hwy/cache_control.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -22,8 +22,9 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 class Shader {
  public:
-  Shader(const ShadeJob& job, const Canvas& canvas, Statistics& statistics)
-      : job_(job), target_(*job.target), canvas_(canvas), statistics_(statistics) {
+  Shader(const FrameJob& frame, const TileRow& tiles, Statistics& statistics)
+      : frame_(frame), target_(*frame.target), tiles_(tiles), statistics_(statistics) {
+    x1_ = std::min(tiles.end * kTileSize, target_.width);
     if (!target_.barycentrics.empty()) {
       outputs_[count_++] = {target_.barycentrics.data(), 3, kBarycentrics};
     }
@@ -34,16 +35,17 @@ class Shader {
   }
 
   // Block by block: a triangle that is seen in one row is seen in the next, and is still in the first cache.
-  void Run(int y0, int y1) {
+  void Run() {
+    const int x0 = tiles_.begin * kTileSize, y0 = tiles_.row * kTileSize, y1 = std::min(y0 + kTileSize, target_.height);
     for (int y = y0; y < y1; y += 8) {
       const int rows = std::min(8, y1 - y);
-      Prefetch(0, y, rows, true);
-      Prefetch(0, y, rows, false);
-      Prefetch(8, y, rows, true);
-      for (int x = 0; x < target_.width; x += 8) {
+      Prefetch(x0, y, rows, true);
+      Prefetch(x0, y, rows, false);
+      Prefetch(x0 + 8, y, rows, true);
+      for (int x = x0; x < x1_; x += 8) {
         Prefetch(x + 8, y, rows, false);
         Prefetch(x + 16, y, rows, true);
-        if (IsUntouched(x, y)) {
+        if (!IsOpen(x)) {
           for (int row = y; row < y + rows; ++row) ClearRow(x, row);
         } else {
           for (int row = y; row < y + rows; ++row) Row(x, row);
@@ -91,17 +93,17 @@ class Shader {
   // The triangles of a block lie anywhere in memory: their indices are asked for two blocks ahead, their vertices one.
   // (Inlined: g++ drops calls of functions that only prefetch.)
   HWY_INLINE void Prefetch(int x0, int y0, int rows, bool indices) {
-    if (x0 >= target_.width || IsUntouched(x0, y0)) return;
+    if (x0 >= x1_ || !IsOpen(x0)) return;
     std::uint32_t last = kNoTriangle;
     std::size_t draw = draw_;
     for (int y = y0; y < y0 + rows; ++y) {
-      for (int x = x0; x < std::min(x0 + 8, target_.width); ++x) {
-        const std::uint32_t winner = canvas_.winner[canvas_.offset_of(x, y)];
+      for (int x = x0; x < std::min(x0 + 8, x1_); ++x) {
+        const std::uint32_t winner = tiles_.winner[tiles_.offset(x, y)];
         if (winner == last || winner == kNoTriangle) continue;
         last = winner;
-        draw = DrawOf(winner, draw);
-        const Draw& of = *job_.jobs[draw].draw;
-        const std::uint32_t* const triangle = &of.indices[std::size_t{3} * (winner - job_.jobs[draw].first_ordinal)];
+        draw = frame_.draw_of(winner, draw);
+        const Draw& of = *frame_.draws[draw].draw;
+        const std::uint32_t* const triangle = &of.indices[std::size_t{3} * (winner - frame_.draws[draw].first_ordinal)];
         if (indices) {
           hwy::Prefetch(triangle);
         } else {
@@ -121,25 +123,25 @@ class Shader {
     alignas(16) std::uint32_t winners[kBatch];
     std::uint32_t seen = 0;
     for (std::uint32_t l = 0; l < kBatch; l += kFour) {
-      const auto w = hn::LoadU(du, canvas_.winner + canvas_.offset_of(x0 + static_cast<int>(l), y));
+      const auto w = hn::LoadU(du, tiles_.winner + tiles_.offset(x0 + static_cast<int>(l), y));
       hn::Store(w, du, winners + l);
       seen |= Bits(du, hn::Ne(w, hn::Set(du, kNoTriangle))) << l;
     }
-    const auto columns = static_cast<std::uint32_t>(std::min(8, target_.width - x0));
+    const auto columns = static_cast<std::uint32_t>(std::min(8, x1_ - x0));
     seen &= (1u << columns) - 1;
     if (seen == 0) {
       ClearRow(x0, y);
       return;
     }
-    first_sample_ = SampleIndex(x0, y);
+    first_sample_ = frame_.sample_index(x0, y);
     for (std::uint32_t rest = ~seen & ((1u << columns) - 1); rest != 0; rest &= rest - 1)
       Clear(SampleOf(static_cast<std::uint32_t>(__builtin_ctz(rest))));
     Pixels pixels;
     for (std::uint32_t l = 0; l < kBatch; ++l) pixels.x[l] = x0 + kCentre[l], pixels.y[l] = y + 0.5;
     for (; seen != 0; seen &= ~pixels.lanes) {
       const std::uint32_t some = winners[__builtin_ctz(seen)];
-      draw_ = DrawOf(some, draw_);
-      const std::uint32_t first = job_.jobs[draw_].first_ordinal,
+      draw_ = frame_.draw_of(some, draw_);
+      const std::uint32_t first = frame_.draws[draw_].first_ordinal,
                           triangles = static_cast<std::uint32_t>(draw().indices.size() / 3);
       pixels.lanes = 0;
       for (std::uint32_t l = 0; l < kBatch; l += kFour) {
@@ -167,22 +169,10 @@ class Shader {
   }
   alignas(64) static constexpr double kCentre[8] = {0.5, 1.5, 2.5, 3.5, 4.5, 5.5, 6.5, 7.5};
 
-  // The draw that the triangle belongs to; `guess` is one nearby.
-  std::size_t DrawOf(std::uint32_t ordinal, std::size_t guess) const {
-    while (ordinal < job_.jobs[guess].first_ordinal) --guess;
-    while (guess + 1 < job_.jobs.size() && ordinal >= job_.jobs[guess + 1].first_ordinal) ++guess;
-    return guess;
-  }
-
-  std::size_t SampleIndex(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(target_.width) + static_cast<std::size_t>(x)) *
-               static_cast<std::size_t>(target_.samples) +
-           job_.sample_number;
-  }
   std::size_t SampleOf(std::uint32_t lane) const {
     return first_sample_ + lane * static_cast<std::size_t>(target_.samples);
   }
-  bool IsUntouched(int x, int y) const { return canvas_.untouched[canvas_.tile_of(x, y)] != 0; }
+  bool IsOpen(int x) const { return tiles_.is_open(x >> kTileLog2); }
 
   void Clear(std::size_t s) const {
     for (std::size_t k = 0; k < count_; ++k) {
@@ -190,25 +180,25 @@ class Shader {
     }
   }
   HWY_NOINLINE void ClearRow(int x0, int y) const {
-    const int x1 = std::min(x0 + 8, target_.width);
+    const int x1 = std::min(x0 + 8, x1_);
     if (target_.samples > 1) {
-      for (int x = x0; x < x1; ++x) Clear(SampleIndex(x, y));
+      for (int x = x0; x < x1; ++x) Clear(frame_.sample_index(x, y));
       return;
     }
     for (std::size_t k = 0; k < count_; ++k) {
       const std::size_t components = outputs_[k].components, n = static_cast<std::size_t>(x1 - x0) * components;
-      std::fill_n(outputs_[k].values + SampleIndex(x0, y) * components, n, 0.0f);
+      std::fill_n(outputs_[k].values + frame_.sample_index(x0, y) * components, n, 0.0f);
     }
   }
 
-  const Draw& draw() const { return *job_.jobs[draw_].draw; }
+  const Draw& draw() const { return *frame_.draws[draw_].draw; }
 
   // Where the attributes of pixel (x, y) are taken (M1).
   HWY_NOINLINE SamplePosition PositionOf(std::uint32_t position, int x, int y) {
     const SamplePosition centre{x + 0.5, y + 0.5};
     exact_.use(draw(), position);
     if (target_.attribute_location == AttributeLocation::centre && exact_.has_values(centre)) return centre;
-    const TieShift shift = job_.jobs[draw_].shift;
+    const TieShift shift = frame_.draws[draw_].shift;
     Statistics unused;
     if (exact_.covers(centre, shift, unused)) return centre;
     for (int n = 0; n < target_.samples; ++n) {
@@ -239,7 +229,7 @@ class Shader {
     const BatchVertices vertices{draw().vertices.data(), pixels.indices};
     Double x[3], y[3], w[3];
     for (std::size_t k = 0; k < 3; ++k) {
-      const Corner v = LoadCorner(df, vertices, lane, k);
+      const auto v = LoadCorner(df, vertices, lane, k);
       x[k] = hn::PromoteTo(d, v.x), y[k] = hn::PromoteTo(d, v.y), w[k] = hn::PromoteTo(d, v.w);
     }
     Edges edges;
@@ -271,7 +261,7 @@ class Shader {
       const Double none = hn::Zero(d);
       Numerators sums{{none, none, none, none}, {none, none, none, none}};
       for (std::size_t k = 0; k < 3; ++k) {
-        Corner u;
+        Corner<FloatTag> u;
         if (out.components == 4) {
           u = LoadFours(df, [&](std::size_t l) { return values_of(l, k); });
         } else {
@@ -368,9 +358,10 @@ class Shader {
   }
   static constexpr float kLargestFloatAsFloat = std::numeric_limits<float>::max();
 
-  const ShadeJob& job_;
+  const FrameJob& frame_;
   const Target& target_;
-  const Canvas canvas_;
+  const TileRow& tiles_;
+  int x1_ = 0;  // where the tiles or the target end
   Statistics& statistics_;
   Output outputs_[kMaxAttributes + 1];
   std::size_t count_ = 0;
@@ -379,12 +370,12 @@ class Shader {
   ExactDraw exact_;
 };
 
-void Shade(const ShadeJob& job, const Canvas& canvas, int y0, int y1, Statistics& statistics) {
-  Shader(job, canvas, statistics).Run(y0, y1);
+void Shade(const FrameJob& frame, const TileRow& tiles, Statistics& statistics) {
+  Shader(frame, tiles, statistics).Run();
 }
 
 }  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // SUREFILL_SRC_SHADE_INL_HPP
+#endif  // SUREFILL_SRC_FAST_SHADE_INL_HPP

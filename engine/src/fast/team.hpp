@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The threads of one call: they start with it, wait between its phases and end with it; or the caller's.
-#ifndef SUREFILL_SRC_TEAM_HPP
-#define SUREFILL_SRC_TEAM_HPP
+#ifndef SUREFILL_SRC_FAST_TEAM_HPP
+#define SUREFILL_SRC_FAST_TEAM_HPP
 
 #include <algorithm>
 #include <atomic>
@@ -39,7 +39,7 @@ class Team {
   // work(item) for item = 0 .. items - 1, in any order, on all threads, this one among them.
   template <typename Work>
   void run(std::size_t items, const Work& work) {
-    if (executor_.run != nullptr && items > 1) {
+    if (executor_.run != nullptr) {
       const auto task = [](void* argument, std::size_t item) {
         const FloatEnvironment environment;
         call(*static_cast<const Work*>(argument), item);
@@ -115,4 +115,4 @@ class Team {
 
 }  // namespace surefill::fast
 
-#endif  // SUREFILL_SRC_TEAM_HPP
+#endif  // SUREFILL_SRC_FAST_TEAM_HPP

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The fast path: triangles are set up and drawn by vector code, chunk by chunk, in parallel.
-#ifndef SUREFILL_SRC_TILES_HPP
-#define SUREFILL_SRC_TILES_HPP
+// The fast path: a chunk of triangles is set up and listed by tiles, then each tile draws its list.
+#ifndef SUREFILL_SRC_FAST_FRAME_HPP
+#define SUREFILL_SRC_FAST_FRAME_HPP
 
 #include <span>
 
@@ -13,8 +13,9 @@ namespace surefill::fast {
 // Does the fast path draw frames like this one? If not, the reference path has to.
 bool supports(std::span<const Draw> draws);
 
-// As reference::render. Working memory: 4 bytes a pixel for depth, 4 for visibility, 4 for counts, as
-// far as they are asked for, with the target's sides rounded up to multiples of 64; 64 KiB a thread.
+// As reference::render. Working memory: 4 bytes a pixel for depth, 4 for visibility, 4 for counts, as far as they are
+// asked for, with the target's sides rounded up to multiples of 64; 16 MiB for the triangles of a chunk and their
+// lists; 0.6 MiB a thread. Where all triangles are one chunk, a row of tiles a thread takes the place of the pixels.
 Status render(const Target& target, std::span<const Draw> draws, const Options& options,
               Statistics& statistics) noexcept;
 
@@ -24,4 +25,4 @@ Status visit_coverage(const Target& target, std::span<const Draw> draws, const C
 
 }  // namespace surefill::fast
 
-#endif  // SUREFILL_SRC_TILES_HPP
+#endif  // SUREFILL_SRC_FAST_FRAME_HPP

@@ -2,17 +2,17 @@
 //
 // What set-up is made of: triangles in lanes, ranges of pixels, edge functions in double and their scales.
 // Included once for each instruction set by kernels.cpp.
-#if defined(SUREFILL_SRC_EDGES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef SUREFILL_SRC_EDGES_INL_HPP
-#undef SUREFILL_SRC_EDGES_INL_HPP
+#if defined(SUREFILL_SRC_FAST_EDGES_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREFILL_SRC_FAST_EDGES_INL_HPP
+#undef SUREFILL_SRC_FAST_EDGES_INL_HPP
 #else
-#define SUREFILL_SRC_EDGES_INL_HPP
+#define SUREFILL_SRC_FAST_EDGES_INL_HPP
 #endif
 
 #include <cstring>
 
-#include "canvas.hpp"
 #include "exact/exact_draw.hpp"
+#include "fast/tile.hpp"
 #include "hwy/highway.h"
 #include "planted.hpp"
 
@@ -45,9 +45,10 @@ HWY_INLINE std::uint32_t Bits(D d, M mask) {
 #endif
 }
 
-// A vertex of as many triangles as FloatTag has lanes; or four components of an attribute there.
+// A vertex of as many triangles as D has lanes; or four components of an attribute there.
+template <class D>
 struct Corner {
-  Float x, y, z, w;
+  hn::Vec<D> x, y, z, w;
 };
 
 // The vertices of a batch: of lane l, those that indices[3 l ...] name.
@@ -60,8 +61,8 @@ struct BatchVertices {
 
 // Four floats of each lane, from where `of(lane)` points.
 template <class D, class Of>
-HWY_INLINE Corner LoadFours(D d, const Of& of) {
-  Corner corner;
+HWY_INLINE Corner<D> LoadFours(D d, const Of& of) {
+  Corner<D> corner;
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (hn::MaxLanes(D()) >= 4) {
     const hn::Repartition<double, D> d64;
@@ -94,26 +95,27 @@ HWY_INLINE Corner LoadFours(D d, const Of& of) {
 
 // Vertex k of lanes lane ...
 template <class D>
-HWY_INLINE Corner LoadCorner(D d, const BatchVertices& vertices, std::size_t lane, std::size_t k) {
+HWY_INLINE Corner<D> LoadCorner(D d, const BatchVertices& vertices, std::size_t lane, std::size_t k) {
   return LoadFours(d, [&](std::size_t l) { return &vertices.of(lane + l, k).x; });
 }
 
 // What a triangle of which all W > 0 reaches along one axis, as in reach() but in float32: division and subtraction are
 // monotonic and the sample coordinates i + offset are float32 values, so again no margin is needed. first, last:
 // pixels, clamped to [begin, end); the box is empty if last < first.
-HWY_INLINE void PixelRange(Float c0, Float c1, Float c2, Float w0, Float w1, Float w2, double offset, int begin,
-                           int end, std::int32_t* first, std::int32_t* last) {
-  const FloatTag d;
-  const IntTag di;
-  const Float q0 = hn::Div(c0, w0), q1 = hn::Div(c1, w1), q2 = hn::Div(c2, w2);
-  const Float shift = hn::Set(d, static_cast<float>(offset));
-  const Float low = hn::Sub(hn::Min(hn::Min(q0, q1), q2), shift);
-  const Float high = hn::Sub(hn::Max(hn::Max(q0, q1), q2), shift);
-  const Float least = hn::Set(d, static_cast<float>(begin)), most = hn::Set(d, static_cast<float>(end));
-  const Float f = hn::Ceil(hn::Min(hn::Max(low, least), most));
-  const Float l = hn::Floor(hn::Max(hn::Min(high, hn::Sub(most, hn::Set(d, 1.0f))), hn::Sub(least, hn::Set(d, 1.0f))));
+template <class D, class V = hn::Vec<D>>
+HWY_INLINE void PixelRange(D d, const V (&c)[3], const V (&w)[3], double offset, int begin, int end,
+                           std::int32_t* first, std::int32_t* last) {
+  const hn::RebindToSigned<D> di;
+  const V q0 = hn::Div(c[0], w[0]), q1 = hn::Div(c[1], w[1]), q2 = hn::Div(c[2], w[2]);
+  const V shift = hn::Set(d, static_cast<float>(offset));
+  const V low = hn::Sub(hn::Min(hn::Min(q0, q1), q2), shift);
+  const V high = hn::Sub(hn::Max(hn::Max(q0, q1), q2), shift);
+  const V least = hn::Set(d, static_cast<float>(begin)), most = hn::Set(d, static_cast<float>(end));
+  const V one = hn::Set(d, 1.0f);
+  const V f = hn::Ceil(hn::Min(hn::Max(low, least), most));
+  const V l = hn::Floor(hn::Max(hn::Min(high, hn::Sub(most, one)), hn::Sub(least, one)));
   // Integers of at most 15 bits: the sum with 1.5 * 2^23 has them in its low bits.
-  const Float magic = hn::Set(d, 0x1.8p23f);
+  const V magic = hn::Set(d, 0x1.8p23f);
   const auto bits = hn::BitCast(di, magic);
   hn::Store(hn::Sub(hn::BitCast(di, hn::Add(f, magic)), bits), di, first);
   hn::Store(hn::Sub(hn::BitCast(di, hn::Add(l, magic)), bits), di, last);
@@ -136,12 +138,14 @@ HWY_INLINE void StoreRange(Double low, Double high, int begin, int end, std::int
 
 // The pixels whose closed squares the triangle touches along one axis (M4), exactly, for W > 0: a quotient of float32
 // numbers that is not an integer n lies farther from n than its rounding to double can carry it (docs/precision.md).
-HWY_INLINE void TouchedRange(Float c0, Float c1, Float c2, Float w0, Float w1, Float w2, int begin, int end,
-                             std::int32_t* first, std::int32_t* last) {
+HWY_INLINE void TouchedRange(const float (&c)[3][kBatch], const float (&w)[3][kBatch], std::size_t lane, int begin,
+                             int end, std::int32_t* first, std::int32_t* last) {
   const DoubleTag d;
-  const Double q0 = hn::Div(hn::PromoteTo(d, c0), hn::PromoteTo(d, w0));
-  const Double q1 = hn::Div(hn::PromoteTo(d, c1), hn::PromoteTo(d, w1));
-  const Double q2 = hn::Div(hn::PromoteTo(d, c2), hn::PromoteTo(d, w2));
+  const FloatTag df;
+  const auto quotient = [&](std::size_t k) {
+    return hn::Div(hn::PromoteTo(d, hn::Load(df, c[k] + lane)), hn::PromoteTo(d, hn::Load(df, w[k] + lane)));
+  };
+  const Double q0 = quotient(0), q1 = quotient(1), q2 = quotient(2);
   StoreRange(hn::Sub(hn::Ceil(hn::Min(hn::Min(q0, q1), q2)), hn::Set(d, 1.0)), hn::Floor(hn::Max(hn::Max(q0, q1), q2)),
              begin, end, first, last);
 }
@@ -207,32 +211,21 @@ HWY_INLINE Double Scale(Double a, Double b, hn::Vec<hn::RebindToUnsigned<DoubleT
   return hn::BitCast(d, hn::Sub(exponent, field));
 }
 
-constexpr double kEdgeLimit = 0x1p30;  // beyond it, no step within 64 samples changes the sign
-constexpr int kSmallExponent = 24;     // 15 * 2 * 2^25 < 2^30
-constexpr int kTileExponent = 22;      // 63 * 2 * 2^23 < 2^30
-// Bounds of the total rounding in units: half a unit for each coefficient times the steps (15 and 63 each way), half
-// for the start, and less than 2^-8 for the double arithmetic before (docs/precision.md).
-constexpr std::int32_t kSmallBound = 16, kTileBound = 64;
-
-// The largest amount that decides a tie of integer edges and no other sign: their values are multiples of it.
-constexpr double kTieStep = 0x1p-12;
-
 // p - q == r without rounding error, lane by lane, for r computed as p - q.
 HWY_INLINE hn::Mask<DoubleTag> DifferenceIsExact(Double p, Double q, Double r) {
   return hn::And(hn::Eq(hn::Sub(p, r), q), hn::Eq(hn::Add(r, q), p));
 }
 
 // The signs of D in the uncertain lanes, exactly; `degenerate` gets the lanes where it is 0.
-HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(const Draw& draw, std::uint32_t first, std::uint32_t uncertain,
-                                            std::uint32_t counted, hn::Mask<DoubleTag> negative,
-                                            std::uint32_t& degenerate, Statistics& statistics) {
+HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(const Draw& draw, const std::uint32_t* positions, std::uint32_t uncertain,
+                                            hn::Mask<DoubleTag> negative, std::uint32_t& degenerate,
+                                            Statistics& statistics) {
   const DoubleTag dd;
   alignas(64) double signs[kBatch];
   hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
   for (; uncertain != 0; uncertain &= uncertain - 1) {
     const auto lane = static_cast<std::uint32_t>(__builtin_ctz(uncertain));
-    Statistics not_counted;
-    const int sign = orientation(draw, first + lane, (counted >> lane & 1) != 0 ? statistics : not_counted);
+    const int sign = orientation(draw, positions[lane], statistics);
     signs[lane] = sign < 0 ? -1 : 1;
     if (sign == 0) degenerate |= 1u << lane;
   }
@@ -290,9 +283,13 @@ HWY_INLINE void Determinant(const Double (&w)[3], const Edges& edges, Double& de
   }
 }
 
+// What the sums of low parts may be wrong by, in units of 2^-24 quantum: within an area of 16 x 16 samples, and within
+// a tile (docs/precision.md).
+constexpr double kSmallParts = 56, kTileParts = 256;
+
 // Splits values up to `largest` in amount in two: a multiple of a quantum, 2^-22 times the power of two at or below
-// `largest`, so that float32 sums of high parts are exact; and what is left. error: what an area's arithmetic in low
-// parts adds to an error, and enough that the sum may be rounded to float32 (docs/precision.md).
+// `largest`, so that float32 sums of high parts are exact; and what is left. Error: what the arithmetic in low parts
+// adds to an error, and enough that the sum may be rounded to float32.
 template <class D>
 class Splitter {
  public:
@@ -311,13 +308,12 @@ class Splitter {
     high = hn::Add(hn::DemoteTo(df, whole), hn::Zero(df));  // no -0: then no sum of parts is -0
     low = hn::DemoteTo(df, hn::Sub(v, whole));
   }
-  HWY_INLINE V Error(V error) const {
-    const V sum = hn::Add(error, hn::Mul(power_, hn::Set(D(), SUREFILL_PLANT(parts_bound) ? 0 : kSplitError)));
+  HWY_INLINE V Error(V error, double units) const {
+    const V sum = hn::Add(error, hn::Mul(power_, hn::Set(D(), SUREFILL_PLANT(parts_bound) ? 0 : units * 0x1p-46)));
     return hn::Add(hn::Mul(sum, hn::Set(D(), 1 + 0x1p-20)), hn::Set(D(), 0x1p-146));
   }
 
  private:
-  static constexpr double kSplitError = 56 * 0x1p-46;  // 56 units of 2^-24 quantum
   V power_, magic_;
 };
 
@@ -325,4 +321,4 @@ class Splitter {
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // SUREFILL_SRC_EDGES_INL_HPP
+#endif  // SUREFILL_SRC_FAST_EDGES_INL_HPP

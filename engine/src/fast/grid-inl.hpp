@@ -3,15 +3,16 @@
 // Grid mode in lanes (semantics.md, section 6): positions rounded to the grid, edge functions of the snapped triangle.
 // Triangles that the guard band cuts, or that reach behind the eye, become the fans of their clipped polygons.
 // Included once for each instruction set by kernels.cpp.
-#if defined(SUREFILL_SRC_GRID_INL_HPP) == defined(HWY_TARGET_TOGGLE)
-#ifdef SUREFILL_SRC_GRID_INL_HPP
-#undef SUREFILL_SRC_GRID_INL_HPP
+#if defined(SUREFILL_SRC_FAST_GRID_INL_HPP) == defined(HWY_TARGET_TOGGLE)
+#ifdef SUREFILL_SRC_FAST_GRID_INL_HPP
+#undef SUREFILL_SRC_FAST_GRID_INL_HPP
 #else
-#define SUREFILL_SRC_GRID_INL_HPP
+#define SUREFILL_SRC_FAST_GRID_INL_HPP
 #endif
 
-#include "edges-inl.hpp"
 #include "exact/grid.hpp"
+#include "fast/batch.hpp"
+#include "fast/edges-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
@@ -33,7 +34,7 @@ HWY_INLINE Double SnapLanes(Double c, Double w, int offset, const Grid& grid, hn
 
 // The corners of a batch on the grid. Returns the lanes that have none, because a vertex is not in front of the eye and
 // within the guard band (or no number).
-HWY_NOINLINE std::uint32_t Snap(const Grid& grid, const BatchVertices& vertices, Batch& batch, Statistics& statistics) {
+HWY_NOINLINE std::uint32_t Snap(const Grid& grid, Batch& batch, Statistics& statistics) {
   const DoubleTag dd;
   const FloatTag df;
   std::uint32_t others = 0;
@@ -42,8 +43,9 @@ HWY_NOINLINE std::uint32_t Snap(const Grid& grid, const BatchVertices& vertices,
     Double x[3], y[3], w[3];
     auto whole = hn::Eq(hn::Zero(dd), hn::Zero(dd));
     for (std::size_t k = 0; k < 3; ++k) {
-      const Corner corner = LoadCorner(df, vertices, lane, k);
-      x[k] = hn::PromoteTo(dd, corner.x), y[k] = hn::PromoteTo(dd, corner.y), w[k] = hn::PromoteTo(dd, corner.w);
+      x[k] = hn::PromoteTo(dd, hn::Load(df, batch.x[k] + lane)),
+      y[k] = hn::PromoteTo(dd, hn::Load(df, batch.y[k] + lane));
+      w[k] = hn::PromoteTo(dd, hn::Load(df, batch.w[k] + lane));
       const Double limit = hn::Mul(hn::Set(dd, kGuardBand), w[k]);  // 39 bits, exact
       whole = hn::And(whole, hn::And(hn::Gt(w[k], hn::Zero(dd)),
                                      hn::And(hn::Le(hn::Abs(x[k]), limit), hn::Le(hn::Abs(y[k]), limit))));
@@ -58,10 +60,9 @@ HWY_NOINLINE std::uint32_t Snap(const Grid& grid, const BatchVertices& vertices,
       hn::Store(at_y, dd, batch.corner_y[k] + lane);
       for (std::uint32_t rest = Bits(dd, hn::And(unsure, whole)); rest != 0; rest &= rest - 1) {
         const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(rest));
-        const Vertex& v = vertices.of(l, k);
-        if (!AllFinite(v)) continue;
-        batch.corner_x[k][l] = snapped_position(v.x, v.w, grid.offset_x, grid, statistics);
-        batch.corner_y[k][l] = snapped_position(v.y, v.w, grid.offset_y, grid, statistics);
+        if ((batch.finite >> l & 1) == 0) continue;
+        batch.corner_x[k][l] = snapped_position(batch.x[k][l], batch.w[k][l], grid.offset_x, grid, statistics);
+        batch.corner_y[k][l] = snapped_position(batch.y[k][l], batch.w[k][l], grid.offset_y, grid, statistics);
       }
     }
   }
@@ -146,28 +147,13 @@ HWY_NOINLINE hn::Mask<DoubleTag> SnappedSigns(const Grid& grid, const Batch& bat
   return hn::Lt(hn::Load(dd, signs), hn::Zero(dd));
 }
 
-// Is the sample inside the snapped triangle of a lane (C2, C3)? Exactly.
-HWY_NOINLINE bool SnappedCovers(const Grid& grid, const Batch& batch, std::size_t lane, SamplePosition p,
-                                TieShift shift) {
-  const int inside = (batch.negative >> lane & 1) != 0 ? -1 : 1;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
-    const double a = batch.corner_y[j][lane] - batch.corner_y[k][lane];
-    const double b = batch.corner_x[k][lane] - batch.corner_x[j][lane];
-    int sign = SignOfSum(a, p.x - batch.corner_x[j][lane], b, p.y - batch.corner_y[j][lane], 16 << grid.bits);
-    if (sign == 0) sign = tie_sign(a, b, shift);
-    if (sign != inside) return false;
-  }
-  return true;
-}
-
 // The smallest and the largest Z/W of each triangle (G2), correctly rounded; negated for DepthTest::greater.
-HWY_INLINE void StoreDepthRange(const DrawJob& job, const Corner (&v)[3], std::uint32_t lane, Batch& batch) {
+HWY_INLINE void SnappedDepthRange(const DrawJob& job, std::uint32_t lane, Batch& batch) {
   const FloatTag d;
   const Float most = hn::Set(d, std::numeric_limits<float>::max());
   Float low = most, high = hn::Neg(most);
-  for (const Corner& corner : v) {
-    const Float z = hn::Div(corner.z, corner.w);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Float z = hn::Div(hn::Load(d, batch.z[k] + lane), hn::Load(d, batch.w[k] + lane));
     low = hn::Min(low, hn::Max(z, hn::Neg(most)));
     high = hn::Max(high, hn::Min(z, most));
   }
@@ -178,22 +164,20 @@ HWY_INLINE void StoreDepthRange(const DrawJob& job, const Corner (&v)[3], std::u
 
 // Which of the clipped triangles reach a sample of the region: these stay in batch.clipped. `degenerate` gets those
 // that hold the eye.
-HWY_NOINLINE std::uint32_t FindClipped(const DrawJob& job, std::uint32_t& degenerate, Batch& batch,
-                                       Statistics& statistics) {
+HWY_NOINLINE void FindClipped(const DrawJob& job, Batch& batch, Statistics& statistics) {
   SnappedTriangle snapped;
   for (std::uint32_t rest = batch.clipped; rest != 0; rest &= rest - 1) {
     const std::uint32_t lane = static_cast<std::uint32_t>(__builtin_ctz(rest)), bit = rest & (0 - rest);
-    const auto vertex = [&](std::size_t k) { return VertexOf(*job.draw, batch.first + lane, k); };
+    const auto vertex = [&](std::size_t k) { return VertexOf(*job.draw, batch.position[lane], k); };
     const bool some = snapped.set_up(vertex(0), vertex(1), vertex(2), *job.draw->grid, statistics);
-    if (!some) degenerate |= bit;
+    if (!some) batch.degenerate |= bit;
     const double least = std::min(job.sample.x, job.sample.y), most = std::max(job.sample.x, job.sample.y);
     if (!some || job.region.empty() || snapped.box(job.region, least, most).empty()) batch.clipped &= ~bit;
   }
-  return batch.clipped;
 }
 
 }  // namespace
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
 
-#endif  // SUREFILL_SRC_GRID_INL_HPP
+#endif  // SUREFILL_SRC_FAST_GRID_INL_HPP

@@ -3,16 +3,16 @@
 // Culling boxes (M6): whether a draw surely leaves no trace in an image, by eight corners whose hull contains it. What
 // is seen of the draw is a sum of the corners with weights >= 0, so a half-space that holds all corners holds that,
 // too.
-#ifndef SUREFILL_SRC_CULLING_HPP
-#define SUREFILL_SRC_CULLING_HPP
+#ifndef SUREFILL_SRC_FAST_CULLING_HPP
+#define SUREFILL_SRC_FAST_CULLING_HPP
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "canvas.hpp"
 #include "exact/bounds.hpp"
+#include "fast/tile.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::fast {
@@ -71,19 +71,24 @@ inline bool reach_of_hull(const CullingBox& box, const DrawJob& job, PixelBox* p
   return true;
 }
 
-// Is everything in the hull behind what the canvas holds, within the bands of a set? Only for frames without counts.
-inline bool is_hidden(const CullingBox& box, const DrawJob& job, const Canvas& canvas, const BandSet& bands) {
+// Is everything in the hull behind what has been drawn? `tile_of(column, row)` is a tile's row of one: what it holds.
+// Only for frames without counts.
+template <typename TileOf>
+bool is_hidden(const CullingBox& box, const DrawJob& job, const TileOf& tile_of) {
   PixelBox r{};
   float nearest = 0;
   if (!reach_of_hull(box, job, &r, &nearest)) return false;
-  constexpr int kTile = kTileSize, kBlock = 1 << kBlockLog2;
+  constexpr int kTile = kTileSize, kBlock = kBlockSize;
   for (int ty = r.y0 & -kTile; ty < r.y1; ty += kTile) {
-    if (!bands.owns(ty >> kTileLog2)) continue;
     for (int tx = r.x0 & -kTile; tx < r.x1; tx += kTile) {
-      if (nearest >= canvas.tile_far[canvas.far_of(tx, ty)]) continue;
+      const TileRow tile = tile_of(tx >> kTileLog2, ty >> kTileLog2);
+      if (*tile.opened == 0) return false;
+      if (nearest >= *tile.far) continue;
       for (int y = std::max(ty, r.y0 & -kBlock); y < std::min(ty + kTile, r.y1); y += kBlock) {
         for (int x = std::max(tx, r.x0 & -kBlock); x < std::min(tx + kTile, r.x1); x += kBlock) {
-          if (!(nearest >= canvas.block_far[canvas.block_of(x, y)])) return false;
+          for (int i = 0; i < kBlock * kBlock; ++i) {
+            if (!(nearest >= tile.depth[tile.offset(x + i % kBlock, y + i / kBlock)])) return false;
+          }
         }
       }
     }
@@ -93,4 +98,4 @@ inline bool is_hidden(const CullingBox& box, const DrawJob& job, const Canvas& c
 
 }  // namespace surefill::fast
 
-#endif  // SUREFILL_SRC_CULLING_HPP
+#endif  // SUREFILL_SRC_FAST_CULLING_HPP

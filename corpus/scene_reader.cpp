@@ -314,7 +314,7 @@ class Reader {
     const std::uint64_t start = draw().first_index ? std::uint64_t{*draw().first_index} : triangles_;
     if (start + draw().triangles.size() > kNoTriangle) {
       fail("first-index " + std::to_string(start) + " plus " + std::to_string(draw().triangles.size()) +
-           " triangles exceeds 4294967295");
+           " triangles exceeds 4294967295 (B5)");
     }
   }
 
@@ -383,6 +383,7 @@ class Reader {
       if (fields_.size() != 6 || fields_[4] != "id")
         fail("triangle I J K [id N]: 'id' and a number may follow the vertices");
       triangle.identifier = integer<std::uint32_t>(fields_[5], 0, kNoTriangle);
+      if (*triangle.identifier == kNoTriangle) fail("id 4294967295 is what an empty sample holds (B5)");
     }
     std::vector<SceneTriangle>& triangles = draw().triangles;
     if (!triangles.empty() && triangles[0].identifier.has_value() != triangle.identifier.has_value()) {

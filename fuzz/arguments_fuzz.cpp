@@ -41,7 +41,7 @@ class Arguments {
     build_target();
     build_draws();
     note_overlaps();
-    note_indices();
+    note_numbers();
     for (Allocation& a : allocations_) a.before.assign(a.bytes.get(), a.bytes.get() + a.size);
   }
 
@@ -203,7 +203,9 @@ class Arguments {
     note(!size_ok, Status::target_size);
     note(!samples_ok, Status::target_samples);
     const std::size_t total = size_ok && samples_ok ? static_cast<std::size_t>(target_.width * target_.height * n) : 4;
-    if (size_ok && samples_ok && sample_total(target_) != total) fail("sample_total is not width * height * samples");
+    if (sample_total(target_) != (size_ok && samples_ok ? total : 0)) {
+      fail("sample_total is not width * height * samples, or not 0 where they are refused");
+    }
 
     target_.count = output<std::uint32_t>(total, Status::target_count);
     if (!large && !one_in(4)) {
@@ -273,7 +275,13 @@ class Arguments {
     note((indices.data() == nullptr && !indices.empty()) || indices.size() % 3 != 0, Status::draw_indices);
     const std::size_t drawn = indices.size() / 3;
 
-    if (one_in(4)) draw.identifiers = buffer<std::uint32_t>(drawn < 16 ? drawn : 1, false, &how);
+    if (one_in(4)) {
+      const std::span<std::uint32_t> identifiers = buffer<std::uint32_t>(drawn < 16 ? drawn : 1, false, &how);
+      draw.identifiers = identifiers;
+      const bool fresh = how != Spoiled::on_another && how != Spoiled::inside_another;
+      const bool there = identifiers.data() != nullptr && identifiers.size() < kTooMany;
+      if (fresh && there && !identifiers.empty() && one_in(16)) identifiers[0] = kNoTriangle;
+    }
     note(!draw.identifiers.empty() && (draw.identifiers.data() == nullptr || draw.identifiers.size() != drawn),
          Status::draw_identifiers);
     draw.first_index = one_in(16) ? 0xFFFFFFFFu - in_.below(8) : in_.byte();
@@ -387,11 +395,15 @@ class Arguments {
     }
   }
 
-  void note_indices() {
+  void note_numbers() {
     for (const Draw& draw : own_draws_) {
       if (draw.indices.data() == nullptr || draw.indices.size() >= kTooMany) continue;
       for (const std::uint32_t index : draw.indices)
         note(index >= draw.vertices.size(), Status::draw_index_out_of_range);
+    }
+    for (const Draw& draw : own_draws_) {
+      if (draw.identifiers.data() == nullptr || draw.identifiers.size() >= kTooMany) continue;
+      for (const std::uint32_t identifier : draw.identifiers) note(identifier == kNoTriangle, Status::draw_identifiers);
     }
   }
 

@@ -319,7 +319,9 @@ class Call {
     }
     if (one_in(4)) {
       d.identifier_count = told(std::min<std::size_t>(d.index_count / 3, 16), &there);
-      d.identifiers = buffer<std::uint32_t>(there * 4, false, &fresh);
+      std::uint32_t* identifiers = buffer<std::uint32_t>(there * 4, false, &fresh);
+      if (fresh && there != 0 && one_in(16)) identifiers[0] = SUREFILL_NO_TRIANGLE;
+      d.identifiers = identifiers;
     }
     d.first_index = one_in(16) ? 0xFFFFFFFFu - in_.below(8) : in_.byte();
     build_attributes(d);
@@ -332,7 +334,9 @@ class Call {
     const auto edge = [this] { return one_in(4) ? static_cast<int>(in_.word()) : static_cast<int>(in_.below(8)); };
     if (one_in(4)) d.scissor = place(surefill_scissor{edge(), edge(), edge(), edge()}, sizeof(surefill_scissor));
     if (one_in(8)) {
-      const surefill_grid grid{one_in(16) ? size() : 8, 0, one_in(16) ? size() : 15, enumerator(3)};
+      const auto offset = [this] { return one_in(16) ? size() : static_cast<int>(in_.below(16)); };
+      const int bits = one_in(16) ? size() : 8, x = offset(), y = offset();
+      const surefill_grid grid{bits, x, y, enumerator(3)};
       d.grid = place(grid, sizeof grid);
     }
     if (one_in(8)) {  // ignored unless it is finite, and then a promise that must be kept: all corners are NaN

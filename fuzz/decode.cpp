@@ -186,7 +186,7 @@ SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
   for (std::uint32_t t = 0; t < triangles; ++t) {
     SceneTriangle& triangle = draw.triangles.emplace_back();
     for (std::uint32_t& v : triangle.vertices) v = in.below(static_cast<std::uint32_t>(draw.vertices.size()));
-    if ((flags & kHasIdentifiers) != 0) triangle.identifier = in.word();
+    if ((flags & kHasIdentifiers) != 0) triangle.identifier = std::min(in.word(), kNoTriangle - 1);  // B5
   }
   if ((flags & kHasCullingBox) != 0) draw.culling_box = box_of(draw);
   return draw;

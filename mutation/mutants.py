@@ -79,8 +79,11 @@ MUTANTS = [
      "  if (low == high) return low;\n",
      "  return static_cast<float>(estimate);\n"),
     ("float-state-kept", "engine/src/float_environment.hpp",
-     "_mm_setcsr(0x1F80u);",
-     ""),
+     "FloatState::of_engine().set(); }",
+     "}"),
+    ("exception-flags-lost", "engine/src/float_environment.hpp",
+     "return FloatState(control_ | flags);",
+     "return FloatState((control_ & ~0x3Fu) | flags);"),
 ]
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent

@@ -6,6 +6,7 @@
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 
+#include <cfenv>
 #include <optional>
 #include <stdexcept>
 #include <tuple>
@@ -42,6 +43,12 @@ void check(Status status) {
       throw std::bad_alloc();
     case Status::draw_index_out_of_range:
       throw py::index_error("triangles: an index that names no row of positions");
+    case Status::draw_identifiers:
+      throw py::value_error("identifiers: NO_TRIANGLE (-1 as int32) is what an empty sample holds");
+    case Status::bad_build:
+      throw std::runtime_error(status_text(status));
+    case Status::viewport:
+      throw py::value_error("depth_range: two finite float32 are needed");
     default:
       throw py::value_error(status_text(status));
   }
@@ -93,10 +100,29 @@ void render_arrays(const FloatArray& positions, const IndexArray& triangles, int
   check(status);
 }
 
-void to_pixel_arrays(const FloatArray& clip, FloatArray out, float x, float y, float width, float height,
-                     float near_depth, float far_depth, int clip_depth, int clip_y) {
-  const Viewport viewport{
-      x, y, width, height, near_depth, far_depth, static_cast<ClipDepth>(clip_depth), static_cast<ClipY>(clip_y)};
+// The float32 nearest to a Python number, whatever the caller's rounding mode, FTZ and DAZ are; its flags are kept.
+[[gnu::noinline]] float rounded(const volatile double& number) {
+  return static_cast<float>(number);
+}
+float nearest(double number) {
+  std::fenv_t callers;
+  std::fegetenv(&callers);
+  std::fesetenv(FE_DFL_ENV);
+  const float result = rounded(number);
+  std::fesetenv(&callers);
+  return result;
+}
+
+void to_pixel_arrays(const FloatArray& clip, FloatArray out, int width, int height, double near_depth, double far_depth,
+                     int clip_depth, int clip_y) {
+  const Viewport viewport{0,
+                          0,
+                          static_cast<float>(width),
+                          static_cast<float>(height),
+                          nearest(near_depth),
+                          nearest(far_depth),
+                          static_cast<ClipDepth>(clip_depth),
+                          static_cast<ClipY>(clip_y)};
   std::optional<FloatArray> output = std::move(out);
   const std::span<Vertex> to = view_output<Vertex>(output);
   Status status;
@@ -120,6 +146,6 @@ PYBIND11_MODULE(_surefill, module) {
              arg("interpolation"), arg("fill_rule"), arg("front_face"), arg("cull"), arg("depth_test"),
              arg("depth_mode"), arg("conservative"), arg("initial_depth").noconvert(), arg("index").noconvert(),
              arg("depth").noconvert(), arg("barycentrics").noconvert(), arg("count").noconvert(), arg("threads"));
-  module.def("to_pixel", &to_pixel_arrays, arg("clip").noconvert(), arg("out").noconvert(), arg("x"), arg("y"),
-             arg("width"), arg("height"), arg("near_depth"), arg("far_depth"), arg("clip_depth"), arg("clip_y"));
+  module.def("to_pixel", &to_pixel_arrays, arg("clip").noconvert(), arg("out").noconvert(), arg("width"),
+             arg("height"), arg("near_depth"), arg("far_depth"), arg("clip_depth"), arg("clip_y"));
 }

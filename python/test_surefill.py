@@ -1,4 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
+import ctypes
+import platform
+import struct
+import sys
 import threading
 import unittest
 
@@ -153,6 +157,8 @@ class WrongCalls(unittest.TestCase):
         call(TypeError, "samples", samples="4")
         call(ValueError, "identifiers", identifiers=np.arange(3, dtype=np.uint32))
         call(TypeError, "identifiers", identifiers=[1, 2])
+        call(ValueError, "identifiers", identifiers=np.array([3, -1], np.int32))
+        call(ValueError, "identifiers", identifiers=np.array([surefill.NO_TRIANGLE, 3], np.uint32))
         call(ValueError, "initial_depth", initial_depth=np.zeros((8, 6), np.float32))
         call(ValueError, "fill_rule", fill_rule="left")
         call(ValueError, "front_face", front_face=None)
@@ -179,6 +185,74 @@ class WrongCalls(unittest.TestCase):
         self.wrong(TypeError, "depth_range", surefill.to_pixel, POSITIONS, SIZE, depth_range=1)
         self.wrong(ValueError, "depth_range", surefill.to_pixel, POSITIONS, SIZE, depth_range=(0, float("nan")))
         self.wrong(ValueError, "clip_y", surefill.to_pixel, POSITIONS, SIZE, clip_y="left")
+
+
+@unittest.skipUnless(sys.platform == "linux" and platform.machine() == "x86_64", "the float state is set as Linux has it")
+class FloatState(unittest.TestCase):
+    """B4: the caller's rounding mode, FTZ and DAZ change nothing, and are the caller's again, with the exception flags."""
+
+    ROUNDINGS = (0, 1, 2, 3)
+    FTZ, DAZ, TRAPS_OFF, FLAGS = 0x8000, 0x40, 0x1F80, 0x3F
+    LIBM = ctypes.CDLL("libm.so.6")
+    SIZE = 32  # of a fenv_t: the coprocessor's 28 bytes, then MXCSR
+
+    def state(self):
+        environment = ctypes.create_string_buffer(self.SIZE)
+        self.LIBM.fegetenv(environment)
+        return environment
+
+    def in_state(self, mxcsr, function):
+        before, changed = self.state(), self.state()
+        struct.pack_into("<I", changed, 28, mxcsr)
+        after = ctypes.create_string_buffer(self.SIZE)
+        try:
+            self.LIBM.fesetenv(changed)
+            result = function()
+            self.LIBM.fegetenv(after)
+        finally:
+            self.LIBM.fesetenv(before)
+        self.assertEqual(struct.unpack_from("<I", after, 28)[0], mxcsr)
+        return result
+
+    def test_all_functions(self):
+        rng = np.random.default_rng(15)
+        scale = rng.choice(np.array([1, 2**-127, 2**-140]), (40, 1))
+        clip = (rng.uniform(-1, 1, (40, 4)) * scale).astype(np.float32)
+        positions = surefill.to_pixel(clip, SIZE)
+        wall = np.array([[0, 0, 2**-127, 1], [9, 0, 2**-127, 1], [0, 9, 2**-127, 1]], np.float32)
+        vertices = np.concatenate((positions[:36], wall))
+        triangles = np.arange(39, dtype=np.int32).reshape(13, 3)
+        values = (rng.uniform(-1, 1, (39, 2)) * np.array([1, 2**-130])).astype(np.float32)
+        initial = np.full(SIZE, 2**-128, np.float32)
+
+        def results():
+            raster = surefill.rasterize(vertices, triangles, SIZE)
+            return (surefill.to_pixel(clip, SIZE, depth_range=(0.1, 0.7), clip_depth="minus_one_to_one"),
+                    surefill.to_pixel(clip, SIZE, depth_range=(1e-45, 2**-127 / 3)),
+                    raster.index, raster.depth, raster.barycentrics, surefill.interpolate(values, raster),
+                    surefill.rasterize(wall, triangles[:1], SIZE, initial_depth=initial, threads=3).index,
+                    surefill.coverage(vertices, triangles, SIZE, samples=4))
+
+        expected = [array.tobytes() for array in results()]
+        for rounding in self.ROUNDINGS:
+            for flush in (0, self.FTZ, self.DAZ, self.FTZ | self.DAZ):
+                for flags in (0, self.FLAGS):
+                    arrays = self.in_state(rounding << 13 | flush | self.TRAPS_OFF | flags, results)
+                    for number, (array, wanted) in enumerate(zip(arrays, expected)):
+                        self.assertEqual(array.tobytes(), wanted, (rounding, flush, number))
+
+    def test_what_is_refused(self):
+        bad = np.array([[0, np.nan, 0, 1]], np.float32)
+
+        def call():
+            for depth_range in ((0, 1e39), (float("inf"), 1)):
+                try:
+                    surefill.to_pixel(bad, SIZE, depth_range=depth_range)
+                except ValueError as error:
+                    if not str(error).startswith("depth_range"):
+                        raise
+
+        self.in_state(self.TRAPS_OFF | self.FTZ, call)
 
 
 if __name__ == "__main__":

@@ -72,6 +72,12 @@ struct Call {
   }
 };
 
+// An output where a list begins.
+template <typename T, typename List>
+std::span<T> over(List&& list, std::size_t size) {
+  return {reinterpret_cast<T*>(list.data()), size};
+}
+
 struct Fault {
   const char* name;
   Status status;
@@ -155,6 +161,14 @@ constexpr Fault kFaults[] = {
     {"depth overlaps initial depth", Status::target_overlap,
      [](Call& c) { c.target.initial_depth = std::span(c.depth).subspan(1, kPixels); }},
     {"count over the indices", Status::target_overlap, [](Call& c) { c.draw().indices = std::span(c.count).first(3); }},
+    {"count over the draws", Status::target_overlap,
+     [](Call& c) { c.target.count = over<std::uint32_t>(c.draws, kPixels); }},
+    {"depth over the attribute arrays", Status::target_overlap,
+     [](Call& c) { c.target.depth = over<float>(c.attribute_arrays, kPixels); }},
+    {"index over the attribute targets", Status::target_overlap,
+     [](Call& c) { c.target.index = over<std::uint32_t>(c.attribute_targets, kPixels); }},
+    {"count over the target", Status::target_overlap,
+     [](Call& c) { c.target.count = over<std::uint32_t>(std::span(&c.target, 1), kPixels); }},
     {"unknown depth test", Status::target_depth_test,
      [](Call& c) { c.target.depth_test = beyond(DepthTest::greater); }},
     {"unknown attribute location", Status::target_attribute_location,
@@ -174,6 +188,8 @@ constexpr Fault kFaults[] = {
      [](Call& c) { c.draw().identifiers = std::span<const std::uint32_t>(c.indices).first(2); }},
     {"identifiers null", Status::draw_identifiers,
      [](Call& c) { c.draw().identifiers = null_span<const std::uint32_t>(1); }},
+    {"an identifier that an empty sample holds", Status::draw_identifiers,
+     [](Call& c) { c.identifiers[0] = kNoTriangle; }},
     {"first index too large", Status::draw_first_index,
      [](Call& c) {
        c.draw().identifiers = {};
@@ -346,10 +362,9 @@ CaseResult argument_case(const Fault& fault, const properties::Renderer& engine)
   const Status checked = validate(call.target, call.draws);
   expect(checked == fault.status, fmt::format("validate returned \"{}\"", status_text(checked)));
   expect(call.bytes() == before, "a buffer was written to");
-  const int samples = call.target.samples;
-  if (fault.status == Status::target_size || samples < 1 || samples > 16) {
-    expect(sample_total(call.target) == 0, "sample_total is not 0");
-  }
+  const bool refused = fault.status == Status::target_size || fault.status == Status::target_samples;
+  expect((sample_total(call.target) == 0) == refused,
+         "sample_total is not 0 exactly where size or samples are refused");
   return result;
 }
 

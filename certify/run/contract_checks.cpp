@@ -180,26 +180,27 @@ constexpr FloatMode kModes[] = {
 #endif
 };
 
-// What of the state a caller sees: control, not the sticky flags.
-unsigned control_state() {
-  unsigned state = static_cast<unsigned>(std::fegetround());
+// What of the state a caller sees: modes and exception flags.
+unsigned float_state() {
+  unsigned state = static_cast<unsigned>(std::fegetround() | std::fetestexcept(FE_ALL_EXCEPT));
 #if defined(__SSE2__)
-  state |= (_mm_getcsr() & 0xFFC0u) << 16;
+  state |= _mm_getcsr() << 16;
 #endif
   return state;
 }
 
-// Calls `call` in a mode; false if the mode was not what was set afterwards. The state before is back at the end.
+// Calls `call` in a mode, without flags; false if the state was another one afterwards. The state before is back at the end.
 bool in_mode(const FloatMode& mode, const std::function<void()>& call) {
   std::fenv_t saved;
   std::fegetenv(&saved);
   std::fesetround(mode.rounding);
+  std::feclearexcept(FE_ALL_EXCEPT);
 #if defined(__SSE2__)
   if (mode.flush) _mm_setcsr(_mm_getcsr() | 0x8040u);  // FTZ (bit 15), DAZ (bit 6)
 #endif
-  const unsigned before = control_state();
+  const unsigned before = float_state();
   call();
-  const bool kept = control_state() == before;
+  const bool kept = float_state() == before;
   std::fesetenv(&saved);
   return kept;
 }

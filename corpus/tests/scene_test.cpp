@@ -117,7 +117,7 @@ TEST(SceneText, EveryFieldComesBack) {
   SceneDraw draw;
   draw.viewport = Viewport{1, 2, 3, 4, 0.1F, 0.9F, ClipDepth::zero_to_one, ClipY::down};
   draw.vertices = {{1, 2, 3, 4, {5, 6, 7}}, {8, 9, 10, -0.F, {-0.F, 0.3F, 1e-45F}}, {0, 0, 0, 1, {0, 0, 0}}};
-  draw.triangles = {{{0, 1, 2}, 7}, {{2, 1, 0}, 4294967295}};
+  draw.triangles = {{{0, 1, 2}, 7}, {{2, 1, 0}, 4294967294}};
   draw.points = {{1, 1}, {2, 0.3F}};
   draw.lines = {{{0, 1}, 1}, {{2, 2}, 1.5F}};
   draw.first_index = 5;
@@ -309,13 +309,15 @@ TEST(SceneText, RefusalsNameLineAndCause) {
       {with_draw_lines(three + "triangle 0 1 2 7"),
        "f:7: triangle I J K [id N]: 'id' and a number may follow the vertices"},
       {with_draw_lines(three + "triangle 0 1 2 id 4294967296"), "f:7: '4294967296' is outside 0..4294967295"},
+      {with_draw_lines(three + "triangle 0 1 2 id 4294967295"),
+       "f:7: id 4294967295 is what an empty sample holds (B5)"},
       {with_draw_lines(three + "triangle 0 1 2 id 1\ntriangle 0 1 2"), "f:8: id on some triangles of the draw only"},
       {with_draw_lines(three + "triangle 0 1 2\ntriangle 0 1 2 id 1"), "f:8: id on some triangles of the draw only"},
       {with_draw_lines(three + "point 0 0"), "f:7: '0' is not greater than 0"},
       {with_draw_lines(three + "line 0 1 inf"), "f:7: 'inf' is not finite"},
       {with_draw_lines(three + "line 0 3"), "f:7: no vertex 3: 3 vertices stand above this line"},
       {with_draw_lines(three + "first-index 4294967295\ntriangle 0 1 2"),
-       "f:9: first-index 4294967295 plus 1 triangles exceeds 4294967295"},
+       "f:9: first-index 4294967295 plus 1 triangles exceeds 4294967295 (B5)"},
       // M4.
       {with_draw_lines("conservative over\ndepth-mode clip"), "f:4: a conservative draw needs depth-mode none (M4)"},
       {with_draw_lines("grid 8 0 0 truncate\nconservative inner"), "f:5: a conservative draw has no grid (M4)"},

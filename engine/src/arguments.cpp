@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // B2: every argument is checked before anything is written.
+#include "arguments.hpp"
+
 #include <cstdint>
 #include <limits>
 
+#include "overlap.hpp"
 #include "planted.hpp"
 #include "surefill/surefill.hpp"
 
@@ -23,44 +26,19 @@ bool fits(std::span<T> buffer, std::size_t size) {
   return buffer.empty() || (buffer.data() != nullptr && buffer.size() == size);
 }
 
-struct Bytes {
-  std::uintptr_t begin = 0, end = 0;
+bool size_ok(const Target& target) {
+  const auto good = [](int size) { return size >= 1 && size <= kMaxTargetSize; };
+  return good(target.width) && good(target.height);
+}
 
-  Bytes() = default;
-  template <typename T>
-  explicit Bytes(std::span<T> s) : begin(reinterpret_cast<std::uintptr_t>(s.data())), end(begin + s.size_bytes()) {}
-  // Do they share a byte? Empty ones share none.
-  bool overlaps(const Bytes& other) const {
-    return begin < end && other.begin < other.end && begin < other.end && other.begin < end;
-  }
-};
+bool samples_ok(const Target& target) {
+  const int n = target.samples;
+  return n == 1 || n == 2 || n == 4 || n == 8 || n == 16;
+}
 
-// The buffers that a frame writes.
-struct OutputBuffers {
-  Bytes bytes[4 + kMaxAttributes];
-  std::size_t count = 0;
-
-  // False if the buffer overlaps one that was there before.
-  bool add(const Bytes& buffer) {
-    if (touched_by(buffer)) return false;
-    bytes[count++] = buffer;
-    return true;
-  }
-  bool touched_by(const Bytes& buffer) const {
-    for (std::size_t i = 0; i < count; ++i) {
-      if (bytes[i].overlaps(buffer)) return true;
-    }
-    return false;
-  }
-};
-
-Status validate_target(const Target& target, OutputBuffers& outputs) {
-  const auto size_ok = [](int size) { return size >= 1 && size <= kMaxTargetSize; };
-  if (!size_ok(target.width) || !size_ok(target.height)) return Status::target_size;
-  if (target.samples != 1 && target.samples != 2 && target.samples != 4 && target.samples != 8 &&
-      target.samples != 16) {
-    return Status::target_samples;
-  }
+Status validate_target(const Target& target, Outputs& outputs) {
+  if (!size_ok(target)) return Status::target_size;
+  if (!samples_ok(target)) return Status::target_samples;
   const std::size_t total = sample_total(target);
   if (!fits(target.count, total)) return Status::target_count;
   if (!fits(target.index, total)) return Status::target_index;
@@ -78,13 +56,10 @@ Status validate_target(const Target& target, OutputBuffers& outputs) {
   if (target.depth_test > DepthTest::greater) return Status::target_depth_test;
   if (target.attribute_location > AttributeLocation::centroid) return Status::target_attribute_location;
 
-  bool apart =
-      outputs.add(Bytes(target.count)) && outputs.add(Bytes(target.index)) && outputs.add(Bytes(target.barycentrics));
-  for (const AttributeTarget& attribute : target.attributes) apart = apart && outputs.add(Bytes(attribute.values));
   // The initial depth may be the depth buffer itself, but not overlap it otherwise.
-  const bool same = target.initial_depth.data() == target.depth.data();
-  apart = apart && !outputs.touched_by(Bytes(target.initial_depth)) && outputs.add(Bytes(target.depth)) &&
-          (same || !Bytes(target.depth).overlaps(Bytes(target.initial_depth)));
+  const bool same = !target.depth.empty() && target.initial_depth.data() == target.depth.data();
+  const bool apart = outputs.add_buffers(target) && (same || !outputs.touched_by(Bytes(target.initial_depth))) &&
+                     !outputs.touched_by(Bytes(target.attributes)) && !outputs.touched_by(Bytes::of(&target));
   return apart ? Status::ok : Status::target_overlap;
 }
 
@@ -115,7 +90,14 @@ Status validate_attributes(const Target& target, const Draw& draw) {
   return Status::ok;
 }
 
-Status validate_draw(const Target& target, const Draw& draw, const OutputBuffers& outputs) {
+// B5. Without an early end, so that it is vector code.
+bool has_no_triangle(std::span<const std::uint32_t> identifiers) {
+  bool found = false;
+  for (const std::uint32_t identifier : identifiers) found |= identifier == kNoTriangle;
+  return found;
+}
+
+Status validate_draw(const Target& target, const Draw& draw, const Outputs& outputs) {
   static_assert(sizeof(std::size_t) == 8, "sizes are checked in 64 bits");
   if (null_but_not_empty(draw.vertices) || draw.vertices.size() > kLargestIndex) return Status::draw_vertices;
   const std::size_t triangles = draw.indices.size() / 3;
@@ -125,6 +107,7 @@ Status validate_draw(const Target& target, const Draw& draw, const OutputBuffers
   if (!draw.identifiers.empty() && (draw.identifiers.data() == nullptr || draw.identifiers.size() != triangles)) {
     return Status::draw_identifiers;
   }
+  if (has_no_triangle(draw.identifiers)) return Status::draw_identifiers;
   if (draw.identifiers.empty() && triangles > kLargestIndex - draw.first_index) return Status::draw_first_index;
   if (const Status status = validate_attributes(target, draw); status != Status::ok) return status;
   if (draw.fill_rule > FillRule::northwards_west) return Status::draw_fill_rule;
@@ -145,7 +128,7 @@ Status validate_draw(const Target& target, const Draw& draw, const OutputBuffers
     return Status::draw_conservative;
   }
   bool apart = !outputs.touched_by(Bytes(draw.vertices)) && !outputs.touched_by(Bytes(draw.indices)) &&
-               !outputs.touched_by(Bytes(draw.identifiers));
+               !outputs.touched_by(Bytes(draw.identifiers)) && !outputs.touched_by(Bytes(draw.attributes));
   for (const AttributeArray& attribute : draw.attributes) apart = apart && !outputs.touched_by(Bytes(attribute.values));
   if (!apart) return Status::target_overlap;
   std::uint32_t largest = 0;
@@ -155,25 +138,37 @@ Status validate_draw(const Target& target, const Draw& draw, const OutputBuffers
   return Status::ok;
 }
 
+Status validate_frame(const Target& target, std::span<const Draw> draws, Outputs& outputs) {
+  if (const Status status = validate_target(target, outputs); status != Status::ok) return status;
+  if (null_but_not_empty(draws)) return Status::draws;
+  if (outputs.touched_by(Bytes(draws))) return Status::target_overlap;
+  for (const Draw& draw : draws) {
+    if (const Status status = validate_draw(target, draw, outputs); status != Status::ok) return status;
+  }
+  return Status::ok;
+}
+
 }  // namespace
 
 std::size_t sample_total(const Target& target) noexcept {
-  if (target.width < 1 || target.width > kMaxTargetSize || target.height < 1 || target.height > kMaxTargetSize ||
-      target.samples < 1 || target.samples > 16) {
-    return 0;
-  }
+  if (!size_ok(target) || !samples_ok(target)) return 0;
   return static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height) *
          static_cast<std::size_t>(target.samples);
 }
 
 Status validate(const Target& target, std::span<const Draw> draws) noexcept {
-  OutputBuffers outputs;
-  if (const Status status = validate_target(target, outputs); status != Status::ok) return status;
-  if (null_but_not_empty(draws)) return Status::draws;
-  for (const Draw& draw : draws) {
-    if (const Status status = validate_draw(target, draw, outputs); status != Status::ok) return status;
-  }
-  return Status::ok;
+  Outputs outputs;
+  return validate_frame(target, draws, outputs);
+}
+
+Status check_call(const Target& target, std::span<const Draw> draws, const Statistics* statistics,
+                  const Options& options) noexcept {
+  if (options.threads < 1 || options.threads > kMaxThreads) return Status::options_threads;
+  if (options.path > Path::reference) return Status::options_path;
+  Outputs outputs;
+  outputs.add(Bytes::of(statistics));
+  if (const Status status = validate_frame(target, draws, outputs); status != Status::ok) return status;
+  return outputs.touched_by(Bytes::of(&options)) ? Status::target_overlap : Status::ok;
 }
 
 const char* status_text(Status status) noexcept {
@@ -199,7 +194,7 @@ const char* status_text(Status status) noexcept {
     case Status::target_initial_depth:
       return "the initial depth's size is not that of the target";
     case Status::target_overlap:
-      return "an output buffer overlaps another buffer";
+      return "an output overlaps another one, or a buffer, list or struct that the call reads";
     case Status::target_depth_test:
       return "the depth test is not an enumerator of DepthTest";
     case Status::target_attribute_location:
@@ -213,7 +208,7 @@ const char* status_text(Status status) noexcept {
     case Status::draw_index_out_of_range:
       return "a draw has an index that names no vertex";
     case Status::draw_identifiers:
-      return "a draw's identifiers are neither empty nor one for each triangle";
+      return "a draw's identifiers are neither empty nor one for each triangle, or one is 2^32 - 1";
     case Status::draw_first_index:
       return "a draw's first index plus its triangles exceed 2^32 - 1";
     case Status::draw_attributes:
@@ -244,6 +239,9 @@ const char* status_text(Status status) noexcept {
       return "the answers of the query are null or not one for each box";
     case Status::visitor:
       return "the visitor's function is null";
+    case Status::bad_build:
+      return "the library was compiled with options that break exact arithmetic, such as -ffast-math or FMA "
+             "contraction";
   }
   return "unknown status";
 }

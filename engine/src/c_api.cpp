@@ -8,6 +8,8 @@
 #include <memory>
 #include <new>
 
+#include "arguments.hpp"
+#include "overlap.hpp"
 #include "surefill/occlusion.hpp"
 #include "surefill/surefill.h"
 #include "surefill/surefill.hpp"
@@ -24,6 +26,7 @@ static_assert(sizeof(surefill_box) == sizeof(OcclusionBox));
 static_assert(sizeof(surefill_rectangle) == sizeof(OcclusionRectangle));
 static_assert(sizeof(Occlusion) == 1 && static_cast<int>(Occlusion::visible) == SUREFILL_VISIBLE);
 static_assert(static_cast<int>(Status::query_answers) == SUREFILL_QUERY_ANSWERS);
+static_assert(static_cast<int>(Status::bad_build) == SUREFILL_BAD_BUILD);
 static_assert(static_cast<int>(FillRule::northwards_west) == SUREFILL_NORTHWARDS_WEST);
 static_assert(kMaxTargetSize == SUREFILL_MAX_TARGET_SIZE && kMaxAttributes == SUREFILL_MAX_ATTRIBUTES);
 static_assert(kMaxComponents == SUREFILL_MAX_COMPONENTS && kMaxThreads == SUREFILL_MAX_THREADS);
@@ -57,9 +60,18 @@ bool read_struct(const void* from, std::size_t least_size, Struct* to) {
   return true;
 }
 
-// A frame's arguments in C++. Null lists stay null, with their size, for validate() to see.
+// A call's arguments in C++. Null lists stay null, with their size, for the engine's checks to see. These see copies,
+// and not whether an output overlaps the originals: that is found out here.
 class Arguments {
  public:
+  // What `statistics` points to, which may be null, is written in the end.
+  explicit Arguments(const surefill_statistics* statistics) {
+    if (statistics == nullptr) return;
+    std::size_t size;
+    std::memcpy(&size, statistics, sizeof size);
+    outputs_.add(Bytes(statistics, size));
+  }
+
   surefill_status read_target(const surefill_target* from) {
     if (from == nullptr) return SUREFILL_NULL_TARGET;
     surefill_target c;
@@ -82,7 +94,19 @@ class Arguments {
       }
       target.attributes = {attribute_targets_, c.attribute_count};
     }
+    overlaps_ = !outputs_.add_buffers(target);
+    read(Bytes(from, c.struct_size));
+    read(Bytes(std::span(c.attributes, c.attribute_count)));
+    if (c.initial_depth != c.depth) read(Bytes(target.initial_depth));
     return SUREFILL_OK;
+  }
+
+  // The occlusion buffer, whose draws are to be read.
+  void read_occlusion(const OcclusionBuffer& buffer) {
+    const std::span<const float> depth = buffer.depth();
+    target.width = buffer.width(), target.height = buffer.height();
+    target.initial_depth = target.depth = {const_cast<float*>(depth.data()), depth.size()};
+    overlaps_ = !outputs_.add_buffers(target);
   }
 
   surefill_status read_draws(const surefill_draw* from, std::size_t count) {
@@ -94,6 +118,7 @@ class Arguments {
     // Elements lie as far apart as the caller's struct is long.
     const std::size_t stride = from->struct_size;
     const auto* bytes = reinterpret_cast<const unsigned char*>(from);
+    read(Bytes(from, count * stride));
     std::size_t attributes = 0, strided = 0;
     for (std::size_t i = 0; i < count; ++i) {
       surefill_draw c;
@@ -112,31 +137,57 @@ class Arguments {
       surefill_draw c;
       read_draw(bytes + i * stride, stride, &c);
       convert(c, draws_[i], next);
+      note_reads(c);
       next += listed_attributes(c);
       if (const std::size_t n = strided_vertices(c); n != 0) {
         const auto* from_bytes = reinterpret_cast<const unsigned char*>(c.vertices);
         for (std::size_t v = 0; v < n; ++v) std::memcpy(copy + v, from_bytes + v * c.vertex_stride, sizeof(Vertex));
         draws_[i].vertices = {copy, n};
         copy += n;
-        overlaps_ = overlaps_ || touched_by_outputs(from_bytes, (n - 1) * c.vertex_stride + sizeof(Vertex));
       }
     }
     draws = {draws_.get(), count};
     return SUREFILL_OK;
   }
 
-  surefill_status read(const surefill_target* c_target, const surefill_draw* c_draws, std::size_t count) {
+  surefill_status read_frame(const surefill_target* c_target, const surefill_draw* c_draws, std::size_t count) {
     const surefill_status status = read_target(c_target);
     return status != SUREFILL_OK ? status : read_draws(c_draws, count);
   }
 
-  // Does an output overlap strided vertices? Then validate() finds an error: this one, or an earlier one.
-  bool overlaps() const { return overlaps_; }
+  // Null is allowed for both.
+  surefill_status read_options(const surefill_options* from, const surefill_statistics* statistics) {
+    if (from != nullptr) {
+      surefill_options c;
+      if (!read_struct(from, SUREFILL_SIZE_TO(surefill_options, path), &c)) return SUREFILL_OPTIONS_STRUCT_SIZE;
+      options_.threads = c.threads == 0 ? 1 : c.threads;
+      options_.path = enumerator<Path>(c.path);
+      read(Bytes(from, c.struct_size));
+    }
+    surefill_statistics unused;
+    const bool known =
+        statistics == nullptr || read_struct(statistics, SUREFILL_SIZE_TO(surefill_statistics, path), &unused);
+    return known ? SUREFILL_OK : SUREFILL_STATISTICS_STRUCT_SIZE;
+  }
 
-  // As surefill::validate; that sees the copies of strided vertices, and not that an output overlaps the originals.
-  Status validate() const {
-    const Status status = surefill::validate(target, draws);
+  Status check() const {
+    const Status status = check_call(target, draws, nullptr, options_);
     return status == Status::ok && overlaps_ ? Status::target_overlap : status;
+  }
+
+  // draw(statistics, options), unless an output overlaps what is read. Gives the statistics back.
+  template <typename Function>
+  surefill_status run(surefill_statistics* to, const Function& draw) const {
+    Statistics s;
+    const Status status = overlaps_ ? check() : draw(s, options_);
+    if (status == Status::ok && to != nullptr) {
+      std::size_t size;
+      std::memcpy(&size, to, sizeof size);
+      const surefill_statistics result{size,     s.triangles, s.dropped,    s.degenerate,
+                                       s.culled, s.outside,   s.rasterized, s.path};
+      std::memcpy(to, &result, size);
+    }
+    return to_c(status);
   }
 
   Target target;
@@ -162,18 +213,20 @@ class Arguments {
     return dense || c.vertices == nullptr || c.vertex_count > UINT32_MAX ? 0 : c.vertex_count;
   }
 
-  bool touched_by_outputs(const unsigned char* from, std::size_t size) const {
-    const auto begin = reinterpret_cast<std::uintptr_t>(from);
-    const auto overlaps = [begin, size](const auto& output) {
-      const auto output_begin = reinterpret_cast<std::uintptr_t>(output.data());
-      return !output.empty() && output_begin < begin + size && begin < output_begin + output.size_bytes();
-    };
-    return overlaps(target.count) || overlaps(target.index) || overlaps(target.depth) ||
-           overlaps(target.barycentrics) ||
-           // A list that is null, or too long, is not read: validate() refuses it.
-           (target.attributes.data() != nullptr &&
-            std::any_of(target.attributes.begin(), target.attributes.end(),
-                        [&overlaps](const AttributeTarget& attribute) { return overlaps(attribute.values); }));
+  void read(const Bytes& bytes) { overlaps_ = overlaps_ || outputs_.touched_by(bytes); }
+
+  void note_reads(const surefill_draw& c) {
+    const std::size_t stride = c.vertex_stride == 0 ? sizeof(Vertex) : c.vertex_stride;
+    if (c.vertex_count != 0) read(Bytes(c.vertices, (c.vertex_count - 1) * stride + sizeof(Vertex)));
+    read(Bytes(std::span(c.indices, c.index_count)));
+    read(Bytes(std::span(c.identifiers, c.identifier_count)));
+    read(Bytes::of(c.scissor));
+    read(Bytes::of(c.grid));
+    if (c.culling_box != nullptr) read(Bytes(std::span(c.culling_box, 8)));
+    const std::size_t listed = listed_attributes(c);
+    read(Bytes(std::span(c.attributes, listed)));
+    for (std::size_t k = 0; k < listed; ++k)
+      read(Bytes(std::span(c.attributes[k].values, c.attributes[k].value_count)));
   }
 
   // How many of a draw's attribute arrays can be read.
@@ -211,38 +264,10 @@ class Arguments {
   std::unique_ptr<Draw[]> draws_;
   std::unique_ptr<AttributeArray[]> attributes_;
   std::unique_ptr<Vertex[]> vertices_;  // of all draws whose vertices have a stride
-  bool overlaps_ = false;               // an output overlaps one of the originals
+  Options options_;
+  Outputs outputs_;
+  bool overlaps_ = false;  // an output overlaps one of the originals
 };
-
-constexpr std::size_t kLeastStatistics = SUREFILL_SIZE_TO(surefill_statistics, path);
-
-surefill_status read_options(const surefill_options* from, Options* options) {
-  if (from == nullptr) return SUREFILL_OK;
-  surefill_options c;
-  if (!read_struct(from, SUREFILL_SIZE_TO(surefill_options, path), &c)) return SUREFILL_OPTIONS_STRUCT_SIZE;
-  options->threads = c.threads == 0 ? 1 : c.threads;
-  options->path = enumerator<Path>(c.path);
-  return SUREFILL_OK;
-}
-
-// Calls `draw` with C++ options and statistics, and gives the statistics back.
-template <typename Function>
-surefill_status with_options(const surefill_options* c_options, surefill_statistics* c_statistics, Function draw) {
-  Options options;
-  if (const surefill_status status = read_options(c_options, &options); status != SUREFILL_OK) return status;
-  surefill_statistics c{};
-  if (c_statistics != nullptr && !read_struct(c_statistics, kLeastStatistics, &c)) {
-    return SUREFILL_STATISTICS_STRUCT_SIZE;
-  }
-  Statistics s;
-  const Status status = draw(s, options);
-  if (status == Status::ok && c_statistics != nullptr) {
-    const surefill_statistics result{c.struct_size, s.triangles, s.dropped,    s.degenerate,
-                                     s.culled,      s.outside,   s.rasterized, s.path};
-    std::memcpy(c_statistics, &result, c.struct_size);
-  }
-  return to_c(status);
-}
 
 template <typename Box, typename CBox>
 surefill_status query(const surefill_occlusion* occlusion, const CBox* boxes, std::size_t count,
@@ -298,8 +323,11 @@ surefill_status surefill_to_pixel(const surefill_viewport* viewport, const suref
                    viewport->far_depth,
                    enumerator<ClipDepth>(viewport->clip_depth_minus_one),
                    enumerator<ClipY>(viewport->clip_y_down)};
-  return to_c(to_pixel(v, std::span(reinterpret_cast<const ClipVertex*>(vertices), count),
-                       std::span(reinterpret_cast<Vertex*>(out), count)));
+  const std::span to(reinterpret_cast<Vertex*>(out), count);
+  // The engine sees the copy. Without a place to write to it says what it says of an overlap.
+  const bool apart = !Bytes(to).overlaps(Bytes::of(viewport));
+  return to_c(
+      to_pixel(v, std::span(reinterpret_cast<const ClipVertex*>(vertices), count), apart ? to : std::span<Vertex>()));
 }
 
 size_t surefill_sample_total(const surefill_target* target) {
@@ -316,18 +344,19 @@ void surefill_sample_location(int32_t samples, int32_t n, int32_t* x, int32_t* y
 }
 
 surefill_status surefill_validate(const surefill_target* target, const surefill_draw* draws, size_t draw_count) {
-  Arguments arguments;
-  const surefill_status status = arguments.read(target, draws, draw_count);
-  return status != SUREFILL_OK ? status : to_c(arguments.validate());
+  Arguments arguments(nullptr);
+  const surefill_status status = arguments.read_frame(target, draws, draw_count);
+  return status != SUREFILL_OK ? status : to_c(arguments.check());
 }
 
 surefill_status surefill_render(const surefill_target* target, const surefill_draw* draws, size_t draw_count,
                                 const surefill_options* options, surefill_statistics* statistics) {
-  Arguments arguments;
-  if (const surefill_status status = arguments.read(target, draws, draw_count); status != SUREFILL_OK) return status;
-  return with_options(options, statistics, [&](Statistics& s, const Options& o) {
-    return arguments.overlaps() ? arguments.validate() : render(arguments.target, arguments.draws, &s, o);
-  });
+  Arguments arguments(statistics);
+  surefill_status status = arguments.read_frame(target, draws, draw_count);
+  if (status == SUREFILL_OK) status = arguments.read_options(options, statistics);
+  if (status != SUREFILL_OK) return status;
+  return arguments.run(
+      statistics, [&](Statistics& s, const Options& o) { return render(arguments.target, arguments.draws, &s, o); });
 }
 
 surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
@@ -351,10 +380,14 @@ void surefill_occlusion_clear(surefill_occlusion* occlusion) {
 surefill_status surefill_occlusion_draw(surefill_occlusion* occlusion, const surefill_draw* draws, size_t draw_count,
                                         const surefill_options* options, surefill_statistics* statistics) {
   if (occlusion == nullptr) return SUREFILL_NULL_OCCLUSION;
-  Arguments arguments;
-  if (const surefill_status status = arguments.read_draws(draws, draw_count); status != SUREFILL_OK) return status;
-  return with_options(options, statistics,
-                      [&](Statistics& s, const Options& o) { return occlusion->buffer.draw(arguments.draws, &s, o); });
+  Arguments arguments(statistics);
+  arguments.read_occlusion(occlusion->buffer);
+  surefill_status status = arguments.read_draws(draws, draw_count);
+  if (status == SUREFILL_OUT_OF_MEMORY) occlusion->buffer.clear();
+  if (status == SUREFILL_OK) status = arguments.read_options(options, statistics);
+  if (status != SUREFILL_OK) return status;
+  return arguments.run(statistics,
+                       [&](Statistics& s, const Options& o) { return occlusion->buffer.draw(arguments.draws, &s, o); });
 }
 
 surefill_status surefill_occlusion_query_boxes(const surefill_occlusion* occlusion, const surefill_box* boxes,

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The floating-point state that the engine's proofs assume (B4): round to nearest, ties to even, subnormals kept on
-// input and output. Set on entry of every public call, restored on exit together with the caller's exception flags.
+// input and output, no traps. Set on entry of every public call, also for checks that look at floats; on exit the
+// caller gets its own back, exception flags included.
 #ifndef SUREFILL_SRC_FLOAT_ENVIRONMENT_HPP
 #define SUREFILL_SRC_FLOAT_ENVIRONMENT_HPP
 
+#include <atomic>
 #include <cfenv>
 #include <cstdint>
 
@@ -12,61 +14,121 @@
 #include <immintrin.h>
 #endif
 
+#include "build_check.hpp"
+
 namespace surefill {
 
+// A thread's modes, traps and exception flags.
+class FloatState {
+ public:
 #if defined(__SSE2__)
 
-// MXCSR: all exceptions masked (0x1F80), rounding control nearest, FTZ and DAZ off.
-class FloatEnvironment {
- public:
-  FloatEnvironment() : saved_(_mm_getcsr()) { _mm_setcsr(0x1F80u); }
-  ~FloatEnvironment() { _mm_setcsr(saved_); }
-  FloatEnvironment(const FloatEnvironment&) = delete;
-  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+  static FloatState now() {
+    return FloatState(_mm_getcsr());
+  }
+  static FloatState of_engine() {
+    return FloatState(0x1F80);
+  }
+  void set() const {
+    _mm_setcsr(control_);
+  }
+  unsigned flags() const {
+    return control_ & 0x3F;
+  }
+  FloatState with_flags(unsigned flags) const {
+    return FloatState(control_ | flags);
+  }
 
  private:
-  unsigned saved_;
-};
+  explicit FloatState(unsigned control) : control_(control) {}
+  unsigned control_;  // MXCSR
 
 #elif defined(__aarch64__)
 
-// FPCR 0: round to nearest, flush-to-zero off, no traps.
-class FloatEnvironment {
- public:
-  FloatEnvironment() {
-    asm volatile("mrs %0, fpcr" : "=r"(saved_control_));
-    asm volatile("mrs %0, fpsr" : "=r"(saved_status_));
-    asm volatile("msr fpcr, %0" : : "r"(std::uint64_t{0}));
+  static FloatState now() {
+    FloatState state;
+    asm volatile("mrs %0, fpcr" : "=r"(state.control_));
+    asm volatile("mrs %0, fpsr" : "=r"(state.status_));
+    return state;
   }
-  ~FloatEnvironment() {
-    asm volatile("msr fpcr, %0" : : "r"(saved_control_));
-    asm volatile("msr fpsr, %0" : : "r"(saved_status_));
+  static FloatState of_engine() {
+    return {};
   }
-  FloatEnvironment(const FloatEnvironment&) = delete;
-  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+  void set() const {
+    asm volatile("msr fpcr, %0" : : "r"(control_));
+    asm volatile("msr fpsr, %0" : : "r"(status_));
+  }
+  unsigned flags() const {
+    return static_cast<unsigned>(status_);
+  }
+  FloatState with_flags(unsigned flags) const {
+    FloatState state = *this;
+    state.status_ |= flags;
+    return state;
+  }
 
  private:
-  std::uint64_t saved_control_ = 0, saved_status_ = 0;
-};
+  std::uint64_t control_ = 0, status_ = 0;  // FPCR, FPSR
 
-#else
+#else  // standard C++ has to do: it knows the rounding mode, and FE_DFL_ENV has subnormals
 
-// Elsewhere standard C++ has to do: it knows the rounding mode, and FE_DFL_ENV has subnormals.
-class FloatEnvironment {
- public:
-  FloatEnvironment() {
-    std::feholdexcept(&saved_);
+  static FloatState now() {
+    FloatState state;
+    std::fegetenv(&state.environment_);
+    state.flags_ = static_cast<unsigned>(std::fetestexcept(FE_ALL_EXCEPT));
+    return state;
+  }
+  static FloatState of_engine() {
+    FloatState before = now(), state;
     std::fesetenv(FE_DFL_ENV);
+    std::fegetenv(&state.environment_);
+    before.set();
+    return state;
   }
-  ~FloatEnvironment() { std::fesetenv(&saved_); }
-  FloatEnvironment(const FloatEnvironment&) = delete;
-  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+  void set() const {
+    std::fesetenv(&environment_);
+    std::feraiseexcept(static_cast<int>(flags_));
+  }
+  unsigned flags() const {
+    return flags_;
+  }
+  FloatState with_flags(unsigned flags) const {
+    FloatState state = *this;
+    state.flags_ |= flags;
+    return state;
+  }
 
  private:
-  std::fenv_t saved_;
-};
+  std::fenv_t environment_{};
+  unsigned flags_ = 0;
 
 #endif
+};
+
+// The engine's state on this thread while it lives. Compilers know nothing of it and move arithmetic across: what
+// needs the state is in a function that is not inlined.
+class FloatEnvironment {
+ public:
+  FloatEnvironment() : before_(FloatState::now()) { FloatState::of_engine().set(); }
+  ~FloatEnvironment() { before_.with_flags(raised_.load(std::memory_order_relaxed)).set(); }
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+  // Runs the caller's code in the state that was there before, on this thread or another one in the engine's state. The
+  // flags that it raises are among those given back.
+  template <typename Code>
+  void leave_for(const Code& code) {
+    before_.set();
+    code();
+    const unsigned flags = FloatState::now().flags();
+    FloatState::of_engine().set();
+    if ((flags & ~raised_.load(std::memory_order_relaxed)) != 0) raised_.fetch_or(flags, std::memory_order_relaxed);
+  }
+
+ private:
+  const FloatState before_;
+  std::atomic<unsigned> raised_{0};
+};
 
 }  // namespace surefill
 

@@ -11,8 +11,10 @@
 #include <new>
 #include <utility>
 
+#include "build_check.hpp"
 #include "exact/bounds.hpp"
 #include "float_environment.hpp"
+#include "overlap.hpp"
 
 namespace surefill {
 namespace {
@@ -88,6 +90,7 @@ struct OcclusionBuffer::State {
   int width = 0, height = 0;
   DepthTest test = DepthTest::less;
   std::unique_ptr<float[]> memory;  // depth, then the levels
+  std::size_t size = 0;             // of the memory
   Level levels[kLevels + 1];        // level 0 is depth itself
 
   float sign() const { return test == DepthTest::less ? 1.0f : -1.0f; }
@@ -107,6 +110,7 @@ struct OcclusionBuffer::State {
       w = ((w - 1) >> kFanoutLog2) + 1, h = ((h - 1) >> kFanoutLog2) + 1;
     }
     state->memory.reset(new (std::nothrow) float[total]);
+    state->size = total;
     if (state->memory == nullptr) return nullptr;
     for (int k = 0; k <= kLevels; ++k) state->levels[k].farthest = state->memory.get() + offset[k];
     state->clear();
@@ -123,8 +127,8 @@ struct OcclusionBuffer::State {
   }
 
   // Each block's farthest key, from the level below: over the rows of a block first, column by column, which compilers
-  // make vector code of; then over its columns.
-  void build() {
+  // make vector code of; then over its columns. Not inlined: it needs the engine's floating-point state.
+  [[gnu::noinline]] void build() {
     constexpr int kFanout = 1 << kFanoutLog2, kColumns = 16 * kFanout;
     for (int k = 1; k <= kLevels; ++k) {
       const Level &below = levels[k - 1], &level = levels[k];
@@ -183,17 +187,29 @@ struct OcclusionBuffer::State {
     return sees(k, box, question.nearest) ? Occlusion::visible : Occlusion::hidden;
   }
 
+  // Not inlined: it needs the engine's floating-point state.
   template <typename Box>
-  static Status query(const State* state, std::span<const Box> boxes, std::span<Occlusion> answers) {
-    if (boxes.data() == nullptr && !boxes.empty()) return Status::query_boxes;
-    if (answers.size() != boxes.size() || (answers.data() == nullptr && !answers.empty())) return Status::query_answers;
+  [[gnu::noinline]] static Status answer_all(const State* state, std::span<const Box> boxes, Occlusion* answers) {
     if (!std::all_of(boxes.begin(), boxes.end(), [](const Box& box) { return legal(box); })) return Status::query_boxes;
-    const FloatEnvironment environment;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       answers[i] =
           state == nullptr ? Occlusion::outside : state->answer(question_of(boxes[i], state->sign(), state->target()));
     }
     return Status::ok;
+  }
+
+  template <typename Box>
+  static Status query(const State* state, std::span<const Box> boxes, std::span<Occlusion> answers) {
+    if (!is_exact_build()) return Status::bad_build;
+    if (boxes.data() == nullptr && !boxes.empty()) return Status::query_boxes;
+    if (answers.size() != boxes.size() || (answers.data() == nullptr && !answers.empty())) return Status::query_answers;
+    const Bytes written(answers);
+    if (written.overlaps(Bytes(boxes)) ||
+        (state != nullptr && written.overlaps(Bytes(std::span(state->memory.get(), state->size))))) {
+      return Status::target_overlap;
+    }
+    const FloatEnvironment environment;
+    return answer_all(state, boxes, answers.data());
   }
 };
 
@@ -209,6 +225,7 @@ OcclusionBuffer& OcclusionBuffer::operator=(OcclusionBuffer&& other) noexcept {
 }
 
 Status OcclusionBuffer::resize(int width, int height, DepthTest depth_test) noexcept {
+  if (!is_exact_build()) return Status::bad_build;
   Target target;
   target.width = width, target.height = height, target.depth_test = depth_test;
   if (const Status status = validate(target, {}); status != Status::ok) return status;
@@ -230,7 +247,10 @@ Status OcclusionBuffer::draw(std::span<const Draw> occluders, Statistics* statis
   target.initial_depth = target.depth;
   const Status status = render(target, occluders, statistics, options);
   if (status == Status::out_of_memory) state_->clear();
-  if (status == Status::ok) state_->build();
+  if (status == Status::ok) {
+    const FloatEnvironment environment;
+    state_->build();
+  }
   return status;
 }
 

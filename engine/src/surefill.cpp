@@ -3,6 +3,8 @@
 // The public calls: check the arguments, set the floating-point state, take the path.
 #include "surefill/surefill.hpp"
 
+#include "arguments.hpp"
+#include "build_check.hpp"
 #include "fast/frame.hpp"
 #include "float_environment.hpp"
 #include "reference.hpp"
@@ -18,8 +20,30 @@ constexpr SampleLocation kLocations8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 
 constexpr SampleLocation kLocations16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
                                            {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
 
-Status draw(const Target& target, std::span<const Draw> draws, [[maybe_unused]] const Options& options,
-            Statistics& statistics) {
+// The caller's code, as the engine calls it: in the caller's floating-point state, on whichever thread.
+struct CallersCode {
+  FloatEnvironment& environment;
+  Executor executor;
+  CoverageVisitor visitor;
+
+  Options with_executor(Options options) {
+    if (executor.run != nullptr) options.executor = {run_tasks, this};
+    return options;
+  }
+
+  static void run_tasks(void* context, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
+    CallersCode& own = *static_cast<CallersCode*>(context);
+    own.environment.leave_for([&] { own.executor.run(own.executor.context, items, task, argument); });
+  }
+  static void visit_blocks(void* context, std::span<const CoverageBlock> blocks) {
+    CallersCode& own = *static_cast<CallersCode*>(context);
+    own.environment.leave_for([&] { own.visitor.visit(own.visitor.context, blocks); });
+  }
+};
+
+// Neither is inlined: they need the engine's floating-point state.
+[[gnu::noinline]] Status draw(const Target& target, std::span<const Draw> draws,
+                              [[maybe_unused]] const Options& options, Statistics& statistics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
   if (options.path == Path::automatic && fast::supports(draws)) {
     return fast::render(target, draws, options, statistics);
@@ -29,8 +53,8 @@ Status draw(const Target& target, std::span<const Draw> draws, [[maybe_unused]] 
   return reference::render(target, draws, statistics);
 }
 
-Status visit(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
-             [[maybe_unused]] const Options& options, Statistics& statistics) {
+[[gnu::noinline]] Status visit(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                               [[maybe_unused]] const Options& options, Statistics& statistics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
   if (options.path == Path::automatic && fast::supports(draws)) {
     return fast::visit_coverage(target, draws, visitor, options, statistics);
@@ -38,12 +62,6 @@ Status visit(const Target& target, std::span<const Draw> draws, const CoverageVi
 #endif
   statistics.path = "reference";
   return reference::visit_coverage(target, draws, visitor, statistics);
-}
-
-Status check(const Options& options) {
-  if (options.threads < 1 || options.threads > kMaxThreads) return Status::options_threads;
-  if (options.path > Path::reference) return Status::options_path;
-  return Status::ok;
 }
 
 }  // namespace
@@ -66,12 +84,13 @@ SampleLocation sample_location(int samples, int n) noexcept {
 
 Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
               const Options& options) noexcept {
-  if (const Status status = check(options); status != Status::ok) return status;
-  if (const Status status = validate(target, draws); status != Status::ok) return status;
-  const FloatEnvironment environment;
+  if (!is_exact_build()) return Status::bad_build;
+  if (const Status status = check_call(target, draws, statistics, options); status != Status::ok) return status;
+  FloatEnvironment environment;
+  CallersCode callers{environment, options.executor, {}};
   Statistics own;
-  const Status status = draw(target, draws, options, own);
-  if (statistics != nullptr) *statistics = own;
+  const Status status = draw(target, draws, callers.with_executor(options), own);
+  if (status == Status::ok && statistics != nullptr) *statistics = own;
   return status;
 }
 
@@ -79,13 +98,15 @@ Status visit_coverage(int width, int height, int samples, std::span<const Draw> 
                       Statistics* statistics, const Options& options) noexcept {
   Target target;
   target.width = width, target.height = height, target.samples = samples;
-  if (const Status status = check(options); status != Status::ok) return status;
-  if (const Status status = validate(target, draws); status != Status::ok) return status;
+  if (!is_exact_build()) return Status::bad_build;
+  if (const Status status = check_call(target, draws, statistics, options); status != Status::ok) return status;
   if (visitor.visit == nullptr) return Status::visitor;
-  const FloatEnvironment environment;
+  FloatEnvironment environment;
+  CallersCode callers{environment, options.executor, visitor};
   Statistics own;
-  const Status status = visit(target, draws, visitor, options, own);
-  if (statistics != nullptr) *statistics = own;
+  const Status status =
+      visit(target, draws, {CallersCode::visit_blocks, &callers}, callers.with_executor(options), own);
+  if (status == Status::ok && statistics != nullptr) *statistics = own;
   return status;
 }
 

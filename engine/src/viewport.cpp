@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
+#include "build_check.hpp"
 #include "exact/exact.hpp"
 #include "float_environment.hpp"
+#include "overlap.hpp"
 #include "planted.hpp"
 #include "surefill/surefill.hpp"
 
@@ -63,30 +65,29 @@ Vertex map(const Viewport& viewport, const ClipVertex& v) {
   return {round_sum(x), round_sum(y), round_sum(z), v.w + 0.0f};
 }
 
-// Not inlined: it must run after the floating-point state is set.
-[[gnu::noinline]] void map_all(const Viewport& viewport, std::span<const ClipVertex> vertices, std::span<Vertex> out) {
-  for (std::size_t i = 0; i < vertices.size(); ++i) out[i] = map(viewport, vertices[i]);
+// Not inlined: it needs the engine's floating-point state.
+[[gnu::noinline]] bool is_finite(const Viewport& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.width) && std::isfinite(v.height) &&
+         std::isfinite(v.near_depth) && std::isfinite(v.far_depth);
 }
 
-bool overlap(std::span<const ClipVertex> in, std::span<const Vertex> out) {
-  const auto in_begin = reinterpret_cast<std::uintptr_t>(in.data()), in_end = in_begin + in.size_bytes();
-  const auto out_begin = reinterpret_cast<std::uintptr_t>(out.data()), out_end = out_begin + out.size_bytes();
-  return in_begin < out_end && out_begin < in_end;
+// Nor this.
+[[gnu::noinline]] void map_all(const Viewport& viewport, std::span<const ClipVertex> vertices, std::span<Vertex> out) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) out[i] = map(viewport, vertices[i]);
 }
 
 }  // namespace
 
 Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices, std::span<Vertex> out) noexcept {
-  for (const float number :
-       {viewport.x, viewport.y, viewport.width, viewport.height, viewport.near_depth, viewport.far_depth}) {
-    if (!std::isfinite(number)) return Status::viewport;
-  }
+  if (!is_exact_build()) return Status::bad_build;
+  const FloatEnvironment environment;
+  if (!is_finite(viewport)) return Status::viewport;
   if (viewport.clip_depth > ClipDepth::minus_one_to_one || viewport.clip_y > ClipY::down) return Status::viewport;
   if (vertices.size() != out.size() || (vertices.data() == nullptr && !vertices.empty()) ||
-      (out.data() == nullptr && !out.empty()) || overlap(vertices, out)) {
+      (out.data() == nullptr && !out.empty()) || Bytes(out).overlaps(Bytes(vertices)) ||
+      Bytes(out).overlaps(Bytes::of(&viewport))) {
     return Status::draw_vertices;
   }
-  const FloatEnvironment environment;
   map_all(viewport, vertices, out);
   return Status::ok;
 }

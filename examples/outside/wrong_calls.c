@@ -135,6 +135,25 @@ static void overlap(Call* c) {
 static void output_is_input(Call* c) {
   c->draws[1].vertex_count = 3, c->target.depth = (float*)c->vertices;
 }
+static void output_is_draws(Call* c) {
+  c->target.count = (uint32_t*)(void*)c->draws;
+}
+static void output_is_arrays(Call* c) {
+  c->target.depth = (float*)(void*)&c->array;
+}
+static void output_is_attribute_list(Call* c) {
+  c->target.index = (uint32_t*)(void*)&c->attribute;
+}
+static void output_is_target(Call* c) {
+  c->target.index = (uint32_t*)(void*)&c->target;
+}
+static void output_is_statistics(Call* c) {
+  c->target.depth = (float*)(void*)&c->statistics;
+}
+static void output_is_first_strided_input(Call* c) {
+  c->draws[0].vertices = (const surefill_vertex*)(const void*)c->barycentrics, c->draws[0].vertex_stride = 20;
+  c->draws[1].vertex_stride = 16;
+}
 static void depth_test(Call* c) {
   c->target.depth_test = 2;
 }
@@ -191,6 +210,9 @@ static void negative_index(Call* c) {
 }
 static void two_identifiers(Call* c) {
   c->draws[0].identifier_count = 2;
+}
+static void no_triangle(Call* c) {
+  c->identifiers[0] = SUREFILL_NO_TRIANGLE;
 }
 static void first_index(Call* c) {
   c->draws[1].identifier_count = 0, c->draws[1].first_index = 0xFFFFFFFFu;
@@ -268,6 +290,11 @@ static const struct {
     CASE(short_initial, SUREFILL_TARGET_INITIAL_DEPTH),
     CASE(overlap, SUREFILL_TARGET_OVERLAP),
     CASE(output_is_input, SUREFILL_TARGET_OVERLAP),
+    CASE(output_is_draws, SUREFILL_TARGET_OVERLAP),
+    CASE(output_is_arrays, SUREFILL_TARGET_OVERLAP),
+    CASE(output_is_attribute_list, SUREFILL_TARGET_OVERLAP),
+    CASE(output_is_target, SUREFILL_TARGET_OVERLAP),
+    CASE(output_is_first_strided_input, SUREFILL_TARGET_OVERLAP),
     CASE(depth_test, SUREFILL_TARGET_DEPTH_TEST),
     CASE(far_depth_test, SUREFILL_TARGET_DEPTH_TEST),
     CASE(location, SUREFILL_TARGET_ATTRIBUTE_LOCATION),
@@ -287,6 +314,7 @@ static const struct {
     CASE(out_of_range, SUREFILL_DRAW_INDEX_OUT_OF_RANGE),
     CASE(negative_index, SUREFILL_DRAW_INDEX_OUT_OF_RANGE),
     CASE(two_identifiers, SUREFILL_DRAW_IDENTIFIERS),
+    CASE(no_triangle, SUREFILL_DRAW_IDENTIFIERS),
     CASE(first_index, SUREFILL_DRAW_FIRST_INDEX),
     CASE(no_arrays, SUREFILL_DRAW_ATTRIBUTES),
     CASE(null_arrays, SUREFILL_DRAW_ATTRIBUTES),
@@ -325,6 +353,11 @@ static void check_render(void) {
     check(kCases[i].name, memcmp(&before, &call, sizeof call) == 0);
     check(kCases[i].name, strcmp(surefill_status_text(kCases[i].expected), "unknown status") != 0);
   }
+  make(&call);
+  output_is_statistics(&call); /* which surefill_validate does not see */
+  memcpy(&before, &call, sizeof call);
+  check("output_is_statistics", validate(&call) == SUREFILL_OK);
+  check("output_is_statistics", render(&call) == SUREFILL_TARGET_OVERLAP && memcmp(&before, &call, sizeof call) == 0);
   make(&call);
   check("the correct call", render(&call) == SUREFILL_OK);
   check("its statistics", call.statistics.triangles == 2 && call.statistics.rasterized == 2);

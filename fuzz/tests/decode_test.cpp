@@ -172,7 +172,7 @@ vertex 0 0 0 1 0 0 0
 vertex 4 0 0 1 0 0 0
 vertex 0 4 0 1 0 0 0
 triangle 0 1 2 id 7
-triangle 2 1 0 id 4294967295
+triangle 2 1 0 id 4294967294
 end
 draw
 end

@@ -145,10 +145,8 @@ def to_pixel(clip: NDArray[np.float32], size: Tuple[int, int], *, depth_range: T
         near_depth, far_depth = (float(d) for d in depth_range)
     except (TypeError, ValueError):
         raise TypeError("depth_range: a pair of numbers is needed") from None
-    if not (np.isfinite(np.float32(near_depth)) and np.isfinite(np.float32(far_depth))):
-        raise ValueError("depth_range: two finite float32 are needed")
     out = np.empty_like(clip, subok=False)
-    _surefill.to_pixel(clip, out, 0.0, 0.0, width, height, near_depth, far_depth,
+    _surefill.to_pixel(clip, out, width, height, near_depth, far_depth,
                        _choice("clip_depth", clip_depth, ("zero_to_one", "minus_one_to_one")),
                        _choice("clip_y", clip_y, ("up", "down")))
     return out
@@ -165,7 +163,7 @@ def rasterize(positions: NDArray[np.float32], triangles: NDArray, size: Tuple[in
     triangles    (T, 3) int32 or uint32, rows of positions.
     size         (height, width) in pixels, 1..16384 each.
     samples      a pixel: 1, 2, 4, 8 or 16.
-    identifiers  (T,) int32 or uint32, unique: what `index` holds instead of the row of triangles.
+    identifiers  (T,) int32 or uint32, unique, none NO_TRIANGLE: what `index` holds instead of the row of triangles.
     fill_rule    who owns a sample exactly on an edge: top_left, top_right, bottom_left, bottom_right, ...
     front_face   "clockwise" or "counter_clockwise", on the screen; cull: "none", "front" or "back".
     depth_test   "less" or "greater"; depth_mode outside 0..1: "none", "clip" or "clamp".

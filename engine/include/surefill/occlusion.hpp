@@ -56,7 +56,8 @@ class SUREFILL_API OcclusionBuffer {
   Status draw(std::span<const Draw> occluders, Statistics* statistics = nullptr, const Options& options = {}) noexcept;
 
   // answers[i] is the answer for the i-th box. query_boxes: null but not empty, or a number that is not finite (in a
-  // rectangle: a NaN). query_answers: not one for each box. Allocates nothing.
+  // rectangle: a NaN). query_answers: not one for each box. target_overlap: answers overlap the boxes, or depth().
+  // Allocates nothing.
   Status query(std::span<const OcclusionBox> boxes, std::span<Occlusion> answers) const noexcept;
   // The same for screen rectangles.
   Status query(std::span<const OcclusionRectangle> rectangles, std::span<Occlusion> answers) const noexcept;

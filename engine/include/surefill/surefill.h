@@ -42,24 +42,25 @@ extern "C" {
 /* What a call returns: the argument at fault. Numbers are never reused. */
 typedef enum surefill_status {
   SUREFILL_OK = 0,
-  SUREFILL_OUT_OF_MEMORY,             /* outputs asked for hold unspecified values */
-  SUREFILL_TARGET_SIZE,               /* width or height outside 1..SUREFILL_MAX_TARGET_SIZE */
-  SUREFILL_TARGET_SAMPLES,            /* samples not 1, 2, 4, 8 or 16 */
-  SUREFILL_TARGET_COUNT,              /* count: neither 0 elements nor surefill_sample_total */
-  SUREFILL_TARGET_INDEX,              /* index: the same */
-  SUREFILL_TARGET_DEPTH,              /* depth: the same */
-  SUREFILL_TARGET_BARYCENTRICS,       /* barycentrics: neither 0 elements nor 3 * surefill_sample_total */
-  SUREFILL_TARGET_ATTRIBUTES,         /* components outside 1..4, more than 16, null, or the wrong size */
-  SUREFILL_TARGET_INITIAL_DEPTH,      /* initial_depth: neither 0 elements nor surefill_sample_total */
-  SUREFILL_TARGET_OVERLAP,            /* an output overlaps another buffer */
-  SUREFILL_TARGET_DEPTH_TEST,         /* not a surefill_depth_test */
+  SUREFILL_OUT_OF_MEMORY,        /* outputs asked for hold unspecified values */
+  SUREFILL_TARGET_SIZE,          /* width or height outside 1..SUREFILL_MAX_TARGET_SIZE */
+  SUREFILL_TARGET_SAMPLES,       /* samples not 1, 2, 4, 8 or 16 */
+  SUREFILL_TARGET_COUNT,         /* count: neither 0 elements nor surefill_sample_total */
+  SUREFILL_TARGET_INDEX,         /* index: the same */
+  SUREFILL_TARGET_DEPTH,         /* depth: the same */
+  SUREFILL_TARGET_BARYCENTRICS,  /* barycentrics: neither 0 elements nor 3 * surefill_sample_total */
+  SUREFILL_TARGET_ATTRIBUTES,    /* components outside 1..4, more than 16, null, or the wrong size */
+  SUREFILL_TARGET_INITIAL_DEPTH, /* initial_depth: neither 0 elements nor surefill_sample_total */
+  SUREFILL_TARGET_OVERLAP,       /* an output, statistics and answers too, overlaps another or what the call reads; only
+                                    initial_depth and depth may be the same */
+  SUREFILL_TARGET_DEPTH_TEST,    /* not a surefill_depth_test */
   SUREFILL_TARGET_ATTRIBUTE_LOCATION, /* not a surefill_attribute_location */
   SUREFILL_DRAWS,                     /* draws is null, and draw_count is not 0 */
   SUREFILL_DRAW_VERTICES,           /* vertices null or more than 2^32 - 1; of to_pixel: null, or in and out overlap */
   SUREFILL_DRAW_INDICES,            /* indices null, no multiple of 3, or more than 2^32 - 2 triangles */
   SUREFILL_DRAW_INDEX_OUT_OF_RANGE, /* an index that names no vertex */
-  SUREFILL_DRAW_IDENTIFIERS,        /* neither 0 nor one for each triangle */
-  SUREFILL_DRAW_FIRST_INDEX,        /* first_index + triangles exceeds 2^32 - 1 */
+  SUREFILL_DRAW_IDENTIFIERS,        /* neither 0 nor one for each triangle, or one is SUREFILL_NO_TRIANGLE [B5] */
+  SUREFILL_DRAW_FIRST_INDEX,        /* first_index + triangles exceeds 2^32 - 1 [B5] */
   SUREFILL_DRAW_ATTRIBUTES,         /* fewer arrays than the target asks for, other components, or too short */
   SUREFILL_DRAW_ATTRIBUTE_INTERPOLATION, /* not a surefill_interpolation */
   SUREFILL_DRAW_FILL_RULE,               /* not a surefill_fill_rule */
@@ -73,6 +74,7 @@ typedef enum surefill_status {
   SUREFILL_OPTIONS_PATH,                 /* not a surefill_path */
   SUREFILL_QUERY_BOXES,                  /* boxes or rectangles null, or with a number that is not finite */
   SUREFILL_QUERY_ANSWERS,                /* answers null, or not one for each box */
+  SUREFILL_BAD_BUILD = 33, /* the library was compiled with options that break exact arithmetic (docs/library.md) */
   /* Of this interface alone. */
   SUREFILL_NULL_TARGET = 1000,     /* target is null */
   SUREFILL_NULL_VIEWPORT,          /* viewport is null */
@@ -203,8 +205,8 @@ typedef struct surefill_attribute_target {
 } surefill_attribute_target;
 
 /* Where the image goes. Sample n of pixel (x, y) is element (y * width + x) * samples + n of every buffer. Each buffer
- * asked for is overwritten whole; a sample without a visible triangle holds index SUREFILL_NO_TRIANGLE, depth +inf (-inf
- * for SUREFILL_GREATER) or the initial depth, barycentrics and attributes +0 [V1]. */
+ * asked for is overwritten whole; a sample without a visible triangle holds index SUREFILL_NO_TRIANGLE, depth +inf
+ * (-inf for SUREFILL_GREATER) or the initial depth, barycentrics and attributes +0 [V1]. */
 typedef struct surefill_target {
   size_t struct_size;    /* sizeof(surefill_target) */
   int32_t width, height; /* pixels; must be set */
@@ -264,12 +266,13 @@ SUREFILL_API const char* surefill_version(void);
 SUREFILL_API const char* surefill_status_text(surefill_status status);
 
 /* The viewport map [S3]: `count` vertices of clip space to `out`, pixel-homogeneous. Each component is the exact real
- * value, rounded once to float32. Errors: NULL_VIEWPORT, VIEWPORT, DRAW_VERTICES (NULL with count > 0, or the two
- * arrays overlap). */
+ * value, rounded once to float32. Errors: NULL_VIEWPORT, VIEWPORT, DRAW_VERTICES (NULL with count > 0, or `out`
+ * overlaps what is read), BAD_BUILD. */
 SUREFILL_API surefill_status surefill_to_pixel(const surefill_viewport* viewport, const surefill_vertex* vertices,
                                                size_t count, surefill_vertex* out);
 
-/* The number of samples of a target: width * height * samples; 0 if a size is outside S5 or target is NULL. */
+/* The number of samples of a target: width * height * samples; 0 where surefill_validate says NULL_TARGET, TARGET_SIZE
+ * or TARGET_SAMPLES, and only there. */
 SUREFILL_API size_t surefill_sample_total(const surefill_target* target);
 
 /* The offset of sample n of a pixel from its top left corner, in 1/16 pixel [S4]. 0 <= n < samples, else that of
@@ -282,13 +285,13 @@ SUREFILL_API surefill_status surefill_validate(const surefill_target* target, co
                                                size_t draw_count);
 
 /* Draws a frame: the draws in order, each onto the image of those before it [V3]. options and statistics may be NULL.
- * Errors: those of surefill_validate, OPTIONS_*. */
+ * Errors: those of surefill_validate, OPTIONS_*, BAD_BUILD. */
 SUREFILL_API surefill_status surefill_render(const surefill_target* target, const surefill_draw* draws,
                                              size_t draw_count, const surefill_options* options,
                                              surefill_statistics* statistics);
 
 /* Makes an occlusion buffer of width x height pixels, empty, into *occlusion. depth_test: surefill_depth_test. Errors:
- * NULL_OCCLUSION, TARGET_SIZE, TARGET_DEPTH_TEST, OUT_OF_MEMORY. */
+ * NULL_OCCLUSION, TARGET_SIZE, TARGET_DEPTH_TEST, OUT_OF_MEMORY, BAD_BUILD. */
 SUREFILL_API surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
                                                        surefill_occlusion** occlusion);
 
@@ -306,8 +309,8 @@ SUREFILL_API surefill_status surefill_occlusion_draw(surefill_occlusion* occlusi
                                                      surefill_statistics* statistics);
 
 /* answers[i] becomes the surefill_answer for the i-th of `count` boxes. Never "hidden" for what would change a sample
- * of an image of this size [T6]. Errors: NULL_OCCLUSION, QUERY_BOXES, QUERY_ANSWERS. Any number of queries may run at
- * once. */
+ * of an image of this size [T6]. Errors: NULL_OCCLUSION, QUERY_BOXES, QUERY_ANSWERS, TARGET_OVERLAP. Any number of
+ * queries may run at once. */
 SUREFILL_API surefill_status surefill_occlusion_query_boxes(const surefill_occlusion* occlusion,
                                                             const surefill_box* boxes, size_t count, uint8_t* answers);
 

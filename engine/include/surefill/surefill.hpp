@@ -11,7 +11,8 @@
 // Depth      Any real number; smaller is nearer unless DepthTest::greater is asked for. Stored as the nearest float32.
 // Exactness  Coverage is decided on the given float32 values as real numbers [C4]; depth, barycentrics and attributes
 //            are the real value, rounded once [I4]. The same bits on every machine, compiler and thread count,
-//            whatever floating-point mode the caller has set [B4].
+//            whatever floating-point modes the caller has set; they and the exception flags are the caller's again
+//            afterwards, and while a visitor or an executor runs [B4].
 // Limits     Targets of 1..16384 pixels each way [S5], 2^32 - 2 triangles a draw, kMaxAttributes attribute arrays of at
 //            most kMaxComponents floats.
 // Errors     Nothing throws, prints or aborts. A Status names the argument at fault; then nothing was written [B2].
@@ -52,15 +53,16 @@ enum class Status : std::uint32_t {
   target_barycentrics,        // barycentrics: neither empty nor 3 * sample_total(target) elements
   target_attributes,          // an attribute target: components outside 1..4, too many, or the wrong buffer size
   target_initial_depth,       // initial_depth is neither empty nor of sample_total(target) elements
-  target_overlap,             // an output overlaps another buffer (only initial_depth and depth may be the same one)
+  target_overlap,             // an output, statistics and answers among them, overlaps another or what the call reads:
+                              // only initial_depth and depth may be the same buffer
   target_depth_test,          // not an enumerator of DepthTest
   target_attribute_location,  // not an enumerator of AttributeLocation
   draws,                      // the list of draws is null but not empty
   draw_vertices,              // a null vertex buffer that is not empty, or more than 2^32 - 1 vertices
   draw_indices,               // a null index buffer, a size that is no multiple of 3, or more than 2^32 - 2 triangles
   draw_index_out_of_range,    // an index that names no vertex
-  draw_identifiers,           // neither empty nor one for each triangle
-  draw_first_index,           // first_index + triangles exceeds 2^32 - 1
+  draw_identifiers,           // neither empty nor one for each triangle, or one is kNoTriangle [B5]
+  draw_first_index,           // first_index + triangles exceeds 2^32 - 1: a triangle's index reaches kNoTriangle [B5]
   draw_attributes,            // fewer arrays than the target asks for, other components, or too short an array
   draw_attribute_interpolation,  // not an enumerator of Interpolation
   draw_fill_rule,                // not an enumerator of FillRule, or closed or open [C5]
@@ -75,6 +77,7 @@ enum class Status : std::uint32_t {
   query_boxes,                   // of an occlusion query: null but not empty, or a number that is not finite
   query_answers,                 // null but not empty, or not one for each box
   visitor,                       // of visit_coverage: its function is null
+  bad_build,                     // the library was compiled with options that break exact arithmetic (docs/library.md)
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
@@ -102,8 +105,8 @@ struct Viewport {
 
 // The viewport map [S3]: each component is the exact real value, rounded once to float32 as IEEE 754 does it (nearest,
 // ties to even, beyond range infinity). Equal inputs give bitwise equal outputs, so shared vertices stay shared.
-// `vertices` and `out` have the same size and do not overlap; else, or if a viewport number is not finite, the status
-// says so and nothing is written.
+// `vertices` and `out` have the same size, and `out` overlaps neither them nor the viewport; else, or if a viewport
+// number is not finite, the status says so and nothing is written.
 SUREFILL_API Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices,
                              std::span<Vertex> out) noexcept;
 
@@ -264,7 +267,8 @@ struct CoverageVisitor {
   void* context = nullptr;
 };
 
-// The number of samples of a target: width * height * samples. 0 if a size is outside S5.
+// The number of samples of a target: width * height * samples. 0 where the status is target_size or target_samples, and
+// only there.
 SUREFILL_API std::size_t sample_total(const Target& target) noexcept;
 
 // Draws a frame: the draws in order, each onto the image of those before it [V3]. Nothing is written unless the status

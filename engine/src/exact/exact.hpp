@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <limits>
 
+#include "../build_check.hpp"
 #include "../planted.hpp"
 
 namespace surefill {

@@ -62,6 +62,7 @@ class Frame {
   }
 
   Status render(Statistics& statistics) {
+    if (!kernels_.is_exact()) return Status::bad_build;
     if (!allocate()) return Status::out_of_memory;
     for (int n = 0; n < target_.samples; ++n) {
       const SampleLocation location = sample_location(target_.samples, n);

@@ -90,6 +90,8 @@ struct Kernels {
   // Writes barycentrics and attributes of a row of tiles.
   void (*shade)(const FrameJob& frame, const TileRow& tiles, Statistics& statistics);
   const char* name;
+  // Is this code compiled as it has to be (build_check.hpp)?
+  bool (*is_exact)();
 };
 
 // For the best instruction set that this machine has (or that a test has chosen with hwy::SetSupportedTargetsForTest).

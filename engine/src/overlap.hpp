@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Which memory a call writes, and whether that overlaps what it reads (B2).
+#ifndef SUREFILL_SRC_OVERLAP_HPP
+#define SUREFILL_SRC_OVERLAP_HPP
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "surefill/surefill.hpp"
+
+namespace surefill {
+
+struct Bytes {
+  std::uintptr_t begin = 0, end = 0;
+
+  Bytes() = default;
+  Bytes(const void* data, std::size_t size) : begin(reinterpret_cast<std::uintptr_t>(data)), end(begin + size) {}
+  template <typename T>
+  explicit Bytes(std::span<T> s) : Bytes(s.data(), s.size_bytes()) {}
+  // Of one object, which may be null.
+  template <typename T>
+  static Bytes of(const T* object) {
+    return {object, object == nullptr ? 0 : sizeof(T)};
+  }
+
+  // Do they share a byte? Empty ones share none.
+  bool overlaps(const Bytes& other) const {
+    return begin < end && other.begin < other.end && begin < other.end && other.begin < end;
+  }
+};
+
+// The memory that a call writes.
+class Outputs {
+ public:
+  // False if it overlaps what was there before.
+  bool add(const Bytes& bytes) {
+    if (touched_by(bytes)) return false;
+    bytes_[count_++] = bytes;
+    return true;
+  }
+
+  // All buffers of a target; false if they overlap. A list of attributes that is null or too long is not read.
+  bool add_buffers(const Target& target) {
+    bool apart = add(Bytes(target.count)) && add(Bytes(target.index)) && add(Bytes(target.depth)) &&
+                 add(Bytes(target.barycentrics));
+    if (target.attributes.data() == nullptr || target.attributes.size() > kMaxAttributes) return apart;
+    for (const AttributeTarget& attribute : target.attributes) apart = apart && add(Bytes(attribute.values));
+    return apart;
+  }
+
+  bool touched_by(const Bytes& bytes) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (bytes_[i].overlaps(bytes)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 5 + kMaxAttributes;  // four buffers, the attributes, the statistics
+  Bytes bytes_[kMost];
+  std::size_t count_ = 0;
+};
+
+}  // namespace surefill
+
+#endif  // SUREFILL_SRC_OVERLAP_HPP

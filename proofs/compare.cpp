@@ -232,8 +232,10 @@ void compare(Program& program, const corpus::Scene& scene, const std::string& na
 
 // Why the proofs do not speak of a scene, or nothing.
 const char* left_out(const corpus::Scene& scene) {
+  if (scene.depth_test != DepthTest::less && scene.depth_test != DepthTest::greater) return "another depth test";
   for (const corpus::SceneDraw& draw : scene.draws) {
     if (draw.grid) return "Grid";
+    if (draw.fill_rule > FillRule::open) return "another fill rule";
     if (draw.conservative != Conservative::none) return "conservative";
     if (!draw.points.empty() || !draw.lines.empty()) return "points or lines";
   }

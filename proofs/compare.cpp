@@ -220,7 +220,8 @@ void compare(Program& program, const corpus::Scene& scene, const std::string& na
     const properties::Comparison result = properties::compare(scene, expected.image(), actual.image(), 3);
     tally.values += result.values;
     if (result.differences == 0) continue;
-    if (tally.differences == 0) std::printf("%s", corpus::write_scene(scene).c_str());
+    // Closed and open have no words in the format yet; the name says which scene it is.
+    if (tally.differences == 0 && !closed_or_open(scene)) std::printf("%s", corpus::write_scene(scene).c_str());
     tally.differences += result.differences;
     std::printf("%s: %s gives %llu other values than the proofs\n", name.c_str(), who,
                 static_cast<unsigned long long>(result.differences));

@@ -8,10 +8,10 @@
  *
  * Space      Pixels: x to the right, y down, pixel (i, j) is [i, i+1) x [j, j+1) (S1). Each vertex comes in two forms:
  *            pixel-homogeneous (X, Y, Z, W), which projects to pixel (X/W, Y/W) and depth Z/W where W > 0 (S2), and
- * clip space (x, y, z, w) with a viewport (S3). Read the one that suits; say which in `info.form`. Buffers    All
- * belong to the caller and live during the call. Sample n of pixel (x, y) is element (y * width + x) * samples + n. A
- * null pointer is an output that is not asked for. Every buffer asked for is written whole; what no triangle covers
- * holds count 0, index SUREFILL_ADAPTER_EMPTY, depth +infinity
+ *            clip space (x, y, z, w) with a viewport (S3). Read the one that suits; say which in `info.form`.
+ * Buffers    All belong to the caller and live during the call. Sample n of pixel (x, y) is element
+ *            (y * width + x) * samples + n. A null pointer is an output that is not asked for. Every buffer asked for
+ *            is written whole; what no triangle covers holds count 0, index SUREFILL_ADAPTER_EMPTY, depth +infinity
  *            (-infinity for the test GREATER), or the initial depth where there is one, and 0 elsewhere (V1).
  * Rules      docs/semantics.md; the letters in brackets are its rules.
  * Threads    Calls on one instance never overlap. Different instances may be used at once.
@@ -29,8 +29,8 @@ extern "C" {
 #define SUREFILL_ADAPTER_VERSION 1u
 #define SUREFILL_ADAPTER_EMPTY 0xFFFFFFFFu /* the index of a sample that no triangle covers */
 
-/* Outputs, as bits. A rasterizer has at least one of COUNT, INDEX, DEPTH; certify makes up what is missing where it can
- * (a count from drawing each triangle alone). */
+/* Outputs, as bits. A rasterizer has at least one of COUNT, INDEX, DEPTH.
+ * certify makes up what is missing where it can: a count from drawing each triangle alone. */
 enum {
   SUREFILL_ADAPTER_COUNT = 1 << 0,        /* triangles that cover the sample, whatever their depth (M2) */
   SUREFILL_ADAPTER_INDEX = 1 << 1,        /* identifier of the visible triangle (V1) */
@@ -39,9 +39,10 @@ enum {
   SUREFILL_ADAPTER_ATTRIBUTES = 1 << 4    /* its interpolated attributes (I2) */
 };
 
-/* What it can draw beyond the plain scene, as bits. The plain scene is one draw of triangles with W > 0, one sample a
- * pixel, depth test LESS, no culling, no depth clipping, perspective attributes, and the fill rule and the grid of the
- * model. Scenes that need more than the rasterizer has are not given to it, and are reported as skipped. */
+/* What it can draw beyond the plain scene, as bits.
+ * The plain scene is one draw of triangles with W > 0, one sample a pixel, depth test LESS, no culling, no depth clipping,
+ * perspective attributes, and the fill rule and the grid of the model.
+ * Scenes that need more than the rasterizer has are not given to it, and are reported as skipped. */
 enum {
   SUREFILL_ADAPTER_BEHIND = 1 << 0,          /* vertices with W <= 0 */
   SUREFILL_ADAPTER_DRAWS = 1 << 1,           /* several draws onto one image (V3) */
@@ -66,7 +67,8 @@ enum {
 
 enum { SUREFILL_ADAPTER_FORM_PIXEL = 0, SUREFILL_ADAPTER_FORM_CLIP = 1 };
 
-/* Where samples and vertices are: what is claimed of coverage. UNKNOWN: certify finds out by probing. */
+/* Where samples and vertices are: what is claimed of coverage.
+ * UNKNOWN: certify finds out by probing. */
 enum {
   SUREFILL_ADAPTER_MODEL_UNKNOWN = 0,
   SUREFILL_ADAPTER_MODEL_EXACT = 1, /* no snapping (section 2) */
@@ -87,8 +89,9 @@ enum {
   SUREFILL_ADAPTER_NORTHWARDS_WEST = 7
 };
 
-/* How precise depth and attributes are meant to be. EXACT: rounded once (I4), compared with ==. The others grant the
- * errors of their standard; the largest one seen is reported. */
+/* How precise depth and attributes are meant to be.
+ * EXACT: rounded once (I4), compared with ==.
+ * The others grant the errors of their standard; the largest one seen is reported. */
 enum {
   SUREFILL_ADAPTER_PROFILE_EXACT = 0,
   SUREFILL_ADAPTER_PROFILE_D3D11 = 1,
@@ -96,8 +99,8 @@ enum {
   SUREFILL_ADAPTER_PROFILE_OPENGL = 3
 };
 
-/* Rows of the image and clip space. UP: row 0 of the images it returns is the bottom one (then certify turns them
- * round). */
+/* Rows of the image and clip space.
+ * UP: row 0 of the images it returns is the bottom one, and certify turns them round. */
 enum { SUREFILL_ADAPTER_Y_DOWN = 0, SUREFILL_ADAPTER_Y_UP = 1, SUREFILL_ADAPTER_Y_UNKNOWN = 2 };
 
 /* Clip space depth that becomes depth 0 to 1: of an adapter of form CLIP. Its viewports have this range. */
@@ -188,8 +191,9 @@ typedef struct surefill_adapter_scene {
   const float* initial_depth; /* null, or one a sample */
 } surefill_adapter_scene;
 
-/* The places for the answer; null where not asked for. attributes[k] takes draws[0].attributes[k].components floats a
- * sample; the array itself is null, or has attribute_count elements. */
+/* The places for the answer; null where not asked for.
+ * attributes[k] takes draws[0].attributes[k].components floats a sample; the array itself is null, or has attribute_count
+ * elements. */
 typedef struct surefill_adapter_image {
   uint32_t* count;
   uint32_t* index;
@@ -198,8 +202,9 @@ typedef struct surefill_adapter_image {
   float* const* attributes;
 } surefill_adapter_image;
 
-/* What open and draw return. UNSUPPORTED: this scene needs what the rasterizer lacks (skipped, not judged). FAILED: it
- * should have drawn it and could not (a finding); error_text says why. */
+/* What open and draw return.
+ * UNSUPPORTED: this scene needs what the rasterizer lacks; it is skipped and not judged.
+ * FAILED: it should have drawn it and could not, which is a finding; error_text says why. */
 enum { SUREFILL_ADAPTER_OK = 0, SUREFILL_ADAPTER_UNSUPPORTED = 1, SUREFILL_ADAPTER_FAILED = 2 };
 
 typedef struct surefill_adapter_api {

@@ -21,9 +21,8 @@ void mutate(corpus::Scene& scene, properties::Random& random);
 // A scene with something of another: vertices, an edge in common, a draw, state, or the frame.
 void cross(corpus::Scene& scene, const corpus::Scene& other, properties::Random& random);
 
-// A form of scenes. Bytes from `size` on are no part of it and are kept, and so mostly are those from
-// `kept_begin` to `kept_end`. A form that grows has room for more
-// triangles. Targets have the sides that are given, or are changed by bytes alone.
+// A form of scenes. Bytes from `size` on are no part of it and are kept, and so mostly are those from `kept_begin` to
+// `kept_end`. A form that grows has room for more triangles. Targets have the sides that are given, or are changed by bytes alone.
 struct Form {
   corpus::Scene (*decode)(std::span<const std::uint8_t>);
   std::optional<Bytes> (*encode)(const corpus::Scene&);

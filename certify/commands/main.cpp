@@ -48,7 +48,6 @@ void warn(const std::string& text) {
 }
 
 // --- render
-// -----------------------------------------------------------------------------------------------------------
 
 struct RenderOptions {
   std::string input, output, size, eye, target, up, show = "depth", cull, renderer = "engine";
@@ -166,7 +165,6 @@ int run_render(const RenderOptions& options) {
 }
 
 // --- certify
-// ----------------------------------------------------------------------------------------------------------
 
 // The corpus that was compiled in, or one that lies beside the program or where an installation puts it.
 std::string find_corpus() {
@@ -184,7 +182,6 @@ std::string find_corpus() {
 }
 
 // --- replay and reduce
-// ------------------------------------------------------------------------------------------------
 
 // A rival under the model that it declares or that probing finds.
 std::unique_ptr<adapters::Rival> met_rival(const RivalChoice& choice) {
@@ -236,7 +233,6 @@ int run_reduce(const ReduceOptions& options) {
 }
 
 // --- The command line
-// -------------------------------------------------------------------------------------------------
 
 std::string one_line(std::string text) {
   while (!text.empty() && text.back() == '\n') text.pop_back();

@@ -41,7 +41,6 @@ Scene random_case(const Settings& settings, const std::string& check, std::uint6
 }
 
 // --- viewport
-// ---------------------------------------------------------------------------------------------------------
 
 float hard_float(Random& random, bool finite) {
   using Limits = std::numeric_limits<float>;
@@ -114,7 +113,6 @@ CaseResult viewport_case(std::uint64_t seed) {
 }
 
 // --- outputs-alone
-// ----------------------------------------------------------------------------------------------------
 
 struct Drawn {
   Status status = Status::ok;
@@ -159,7 +157,6 @@ CaseResult outputs_alone(const Scene& scene, const properties::Renderer& engine)
 }
 
 // --- float-environment
-// ------------------------------------------------------------------------------------------------
 
 // A floating-point state that a caller may have: rounding and, where the machine has them, FTZ and DAZ.
 struct FloatMode {

@@ -1,8 +1,12 @@
 /* SPDX-License-Identifier: Apache-2.0
  *
  * A small rasterizer in C behind the adapter: fixed point of 8 bits, 64-bit edge functions, coverage counts only. It
- * does not say what its model is; certify finds out. Build and try: cc -shared -fPIC -I. -o fixed_point.so
- * examples/rivals/fixed_point.c -lm surefill certify --plugin ./fixed_point.so */
+ * does not say what its model is; certify finds out.
+ *
+ * Build and try:
+ *     cc -shared -fPIC -I. -o fixed_point.so examples/rivals/fixed_point.c -lm
+ *     surefill certify --plugin ./fixed_point.so
+ */
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -22,7 +22,6 @@ using corpus::SceneVertex;
 using Visit = std::function<bool(Scene&&)>;
 
 // --- Draws and primitives
-// ---------------------------------------------------------------------------------------------
 
 // Leaves out the vertices that nothing names; the image stays the same.
 void drop_unused_vertices(SceneDraw& draw) {
@@ -100,7 +99,6 @@ bool simpler_primitives(const Scene& scene, const Visit& visit) {
 }
 
 // --- The target
-// -------------------------------------------------------------------------------------------------------
 
 int saturated(std::int64_t value) {
   return static_cast<int>(
@@ -187,7 +185,6 @@ bool simpler_target(const Scene& scene, const Visit& visit) {
 }
 
 // --- State
-// ------------------------------------------------------------------------------------------------------------
 
 // Visits the scene with `change` applied. Changes are made only where they take something away.
 template <typename Change>
@@ -292,7 +289,6 @@ bool simpler_state(const Scene& scene, const Visit& visit) {
 }
 
 // --- Numbers
-// ----------------------------------------------------------------------------------------------------------
 
 // How hard a number is to read: 0 is easiest, then 1, small integers and short binary fractions; NaN and infinities are
 // hardest. Every candidate below lowers it.
@@ -383,7 +379,6 @@ bool simpler_values(const Scene& scene, const Visit& visit) {
 }
 
 // --- All of it
-// --------------------------------------------------------------------------------------------------------
 
 bool enumerate(const Scene& scene, const Visit& visit) {
   return simpler_draws(scene, visit) || simpler_primitives(scene, visit) || simpler_target(scene, visit) ||

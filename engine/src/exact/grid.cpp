@@ -78,9 +78,10 @@ int sign_of_b_sum(const Triangle& triangle) {
 // eye lies on one side of every other guard plane.
 //
 // An X plane and a Y plane: both X planes have been applied by then, so W >= 0, and 0 only at the eye; the point is
-// (+-g, +-g, 1) times a positive number. The two X planes: the point is (0, 1, 0) times l, where the weights l E_i / D
-// of the vertices sum to 1, so l has the sign of D times that of the sum of the E_i at (0, 1, 0). It lies outside of
-// a Y plane, and so is gone in the end.
+// (+-g, +-g, 1) times a positive number.
+//
+// The two X planes: the point is (0, 1, 0) times l, where the weights l E_i / D of the vertices sum to 1, so l has the
+// sign of D times that of the sum of the E_i at (0, 1, 0). It lies outside of a Y plane, and so is gone in the end.
 GuardCorner band_corner(int first, int second, const Triangle& triangle) {
   GuardCorner corner;
   if (!bounds_x(second)) {

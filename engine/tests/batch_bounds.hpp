@@ -20,6 +20,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/tests/batch_triangles.hpp"
 #include "exact/grid.hpp"
 #include "exact/triangle.hpp"
 #include "fast/frame.hpp"
@@ -51,11 +52,11 @@ class BatchBounds {
     if (thin) draw_.grid->bits = random_.between(10, 12);
     if ((thin && random_.one_in(2)) || diagonal) size = kMaxTargetSize;
     for (std::uint32_t t = 0; t < count; ++t) {
-      for (const Vertex& v : thin       ? thin_triangle()
-                             : crossing ? crossing_triangle(x, y)
-                             : flat     ? flat_triangle(size)
-                             : diagonal ? diagonal_triangle()
-                             : uneven   ? uneven_triangle()
+      for (const Vertex& v : thin       ? thin_triangle(random_, *draw_.grid)
+                             : crossing ? crossing_triangle(random_, x, y)
+                             : flat     ? flat_triangle(random_, size)
+                             : diagonal ? diagonal_triangle(random_)
+                             : uneven   ? uneven_triangle(random_)
                                         : category.triangle(random_, size, size)) {
         indices.push_back(static_cast<std::uint32_t>(vertices.size()));
         vertices.push_back(v);
@@ -167,106 +168,6 @@ class BatchBounds {
     expect(fast::supports(draws), "the fast path draws so many triangles");
     last.indices = std::span(indices).first(3 * (kEach - 1));
     expect(!fast::supports(draws), "the fast path draws no more triangles");
-  }
-  // Whole numbers and powers of two far below them, or far above: products of which some are exact, edges that miss
-  // samples by next to nothing; zeros of both signs, and sometimes an infinity.
-  std::array<Vertex, 3> uneven_triangle() {
-    const int finest = random_.one_in(2) ? 34 : 100;
-    const bool infinities = random_.one_in(16);
-    const auto number = [&](int low, int high) {
-      const float few = static_cast<float>(random_.between(-3, 3));
-      if (infinities && random_.one_in(6)) return few < 0 ? -kInfinity : kInfinity;
-      if (!random_.one_in(3)) return static_cast<float>(random_.between(low, high));
-      return std::ldexp(few, random_.one_in(12) ? random_.between(12, 30) : -random_.between(10, finest));
-    };
-    std::array<Vertex, 3> made;
-    for (Vertex& v : made) {
-      v = {number(-2, 14), number(-2, 14), number(0, 3), random_.one_in(3) ? number(1, 3) : 1.0f};
-      if (random_.one_in(16)) v.w = random_.one_in(2) ? 0.0f : -0.0f;
-    }
-    return made;
-  }
-  // With next to no area: two corners on a line through samples, the third far away in the line's direction; of any
-  // depth. No double, or just a double, tells the sign of D.
-  std::array<Vertex, 3> flat_triangle(int size) {
-    const auto any_depth = [&] {
-      return std::ldexp(static_cast<float>(2 * random_.unit() - 1), random_.one_in(2) ? random_.between(60, 126) : 0);
-    };
-    const float x = static_cast<float>(random_.between(0, size - 1)) + 0.5f,
-                y = static_cast<float>(random_.between(0, size - 1)) + 0.5f;
-    const auto dx = static_cast<float>(random_.between(-3, 3)), dy = static_cast<float>(random_.between(-3, 3));
-    const auto back = static_cast<float>(-random_.between(0, 300)), ahead = static_cast<float>(random_.between(1, 300));
-    const float far = static_cast<float>(2 * random_.unit() - 1) * std::ldexp(1.0f, -random_.between(40, 60));
-    return {{{x + back * dx, y + back * dy, any_depth(), 1},
-             {x + ahead * dx, y + ahead * dy, any_depth(), 1},
-             {dx, dy, any_depth() * far, far}}};
-  }
-  // From beside the target's first sample down to the right, a few pixels wide: near the first sample its edges' terms
-  // are small, and the errors of their steps are what counts at the last.
-  std::array<Vertex, 3> diagonal_triangle() {
-    const double far_x = random_.between(4000, 30000), far_y = random_.between(4000, 30000);
-    const auto near = [&] { return 2 * random_.unit() - 1; };
-    const double corners[3][2] = {{near(), near()}, {far_x, far_y}, {far_x + 20 * near(), far_y + 20 * near()}};
-    std::array<Vertex, 3> made;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const double w = std::ldexp(1 + random_.unit(), random_.between(-12, 12));
-      made[k] = {static_cast<float>(corners[k][0] * w), static_cast<float>(corners[k][1] * w),
-                 static_cast<float>(near() * w), static_cast<float>(w)};
-    }
-    return made;
-  }
-  // Around (x, y), where its depth passes 0: far from the origin of the screen, the errors of E_i are all there is.
-  std::array<Vertex, 3> crossing_triangle(int x, int y) {
-    const double slope_x = random_.unit() - 0.5, slope_y = random_.unit() - 0.5;
-    const int reach = 1 << random_.between(1, 10);
-    std::array<Vertex, 3> made;
-    for (Vertex& v : made) {
-      const double w = random_.one_in(2) ? 1 : 1 + random_.unit();
-      const double dx = (2 * random_.unit() - 1) * reach, dy = (2 * random_.unit() - 1) * reach;
-      v = {static_cast<float>((x + dx) * w), static_cast<float>((y + dy) * w), 0, static_cast<float>(w)};
-      v.z = static_cast<float>((v.x / static_cast<double>(v.w) - x) * slope_x * v.w +
-                               (v.y / static_cast<double>(v.w) - y) * slope_y * v.w);
-    }
-    return made;
-  }
-  // Snapped to the grid, its corners are as near to one line as they can be, and far apart: P, Q and P + (u, v), where
-  // (Q - P) x (u, v) is 1, or 0, grid step each way.
-  std::array<Vertex, 3> thin_triangle() {
-    const double steps = 1 << draw_.grid->bits;
-    const auto any = [&] { return std::round((2 * random_.unit() - 1) * (kMaxTargetSize - 1) * steps); };
-    double x = any(), y = any(), to_x = any(), to_y = any();
-    if (random_.one_in(2)) {  // from the first sample of its box, near which it passes, down to the right
-      std::tie(x, to_x) = std::minmax({std::fabs(x), std::fabs(to_x)});
-      std::tie(y, to_y) = std::minmax({std::fabs(y), std::fabs(to_y)});
-    }
-    const double dx = to_x - x, dy = to_y - y;
-    auto r0 = static_cast<std::int64_t>(dx), r1 = static_cast<std::int64_t>(dy);
-    double v0 = 1, v1 = 0, u0 = 0, u1 = 1;  // Euclid: r = dx v + dy u, so that dx v0 + dy u0 divides both
-    while (r1 != 0) {
-      const std::int64_t q = r0 / r1;
-      std::tie(r0, r1) = std::pair(r1, r0 - q * r1);
-      std::tie(v0, v1) = std::pair(v1, v0 - static_cast<double>(q) * v1);
-      std::tie(u0, u1) = std::pair(u1, u0 - static_cast<double>(q) * u1);
-    }
-    double u = -u0, v = v0;
-    if (u * dx + v * dy < 0) u += dx, v += dy;
-    if (random_.one_in(4)) u = dx, v = dy;
-    const double corner[3][2] = {{x, y}, {x + dx, y + dy}, {x + u, y + v}};
-    std::array<Vertex, 3> made;
-    for (std::size_t k = 0; k < 3; ++k) {
-      // A W with which float32 numbers come near enough, mostly.
-      const double at_x = (corner[k][0] + draw_.grid->offset_x / 16.0) / steps,
-                   at_y = (corner[k][1] + draw_.grid->offset_y / 16.0) / steps;
-      const auto error = [&](double at, float w) {
-        return std::fabs(static_cast<double>(static_cast<float>(at * w)) / w - at) * steps;
-      };
-      float w = 1;
-      for (int tries = 0; tries < 300 && std::max(error(at_x, w), error(at_y, w)) > 0.4; ++tries)
-        w = static_cast<float>(1 + random_.unit());
-      made[k] = {static_cast<float>(at_x * w), static_cast<float>(at_y * w), w / 2, w};
-    }
-    if (random_.one_in(2)) std::swap(made[0], made[1]);
-    return made;
   }
   SamplePosition at(int x, int y) const { return {x + job_.sample.x, y + job_.sample.y}; }
 

@@ -1,19 +1,26 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Mutates the engine's sources mechanically and expects the suite to kill every mutant.
+"""Mutates the engine's sources mechanically and sees which mutants the suite kills.
 
 All mutants of a path are compiled into one program (mutation/schemata/mutant.hpp, vector_mutant.hpp) and chosen by number
 at run time. The suite is every check of `surefill certify` but the large meshes; against the fast path, the frames of
-engine/tests/path_cases.hpp and the corpus, too. A mutant's run stops at its first kill, or after --seconds; a mutant that
-changes nothing that can be seen is explained in mutation/schemata/equivalent*.txt. Results are kept in
-build/schemata/PATH/results.txt: an interrupted run goes on, and shards may be run apart and their files put together.
+engine/tests/path_cases.hpp and the corpus, too. A mutant's run stops at its first kill, or after --seconds.
 
-usage: mutation/schemata.py [--path reference|fast] [--seconds S] [--shard I/N] [--every K] [--jobs N] [--only TEXT] [--list]
-Exit 0 if every mutant is killed or explained as equivalent, 1 if one is not, 2 if it cannot be built.
+reference: every mutant is killed, or mutation/schemata/equivalent.txt says why it changes nothing that can be seen. Results
+  are kept in build/schemata/reference/results.txt: an interrupted run goes on, and shards may be run apart and their files
+  put together. Exit 0 if all are killed or explained, 1 if one is not.
+fast: a probe of an hour. A sample is drawn by --seed; killed and not killed are counted, and those that live are named.
+  Many of them change nothing but speed, and nobody keeps a list of those. Exit 0.
+
+usage: mutation/schemata.py [--path reference|fast] [--seconds S] [--jobs N] [--only TEXT] [--list]
+                            [--shard I/N]               (reference)
+                            [--sample N] [--seed S]     (fast; 200 mutants, seed 1)
+Exit 2 if the program cannot be built.
 """
 import argparse
 import os
 import pathlib
+import random
 import re
 import shutil
 import subprocess
@@ -31,7 +38,9 @@ UNDEFINED = "bounds,float-cast-overflow,signed-integer-overflow,integer-divide-b
 DEFINED = ["-ftrivial-auto-var-init=zero", "-fstrict-flex-arrays=3", f"-fsanitize={UNDEFINED}", f"-fsanitize-trap={UNDEFINED}"]
 FLAGS = ["-std=c++20", "-O2", "-ffp-contract=off", "-w", f'-DSUREFILL_MESHES="{ROOT}/corpus/meshes"',
          f'-DSUREFILL_CORPUS="{ROOT}/corpus"', f"-I{ROOT}", f"-I{ROOT}/engine/include", f"-I{SCHEMATA}"]
-CHECKS = ["argument_check.cpp", "checks.cpp", "contract_checks.cpp", "judge.cpp", "mesh.cpp", "mesh_checks.cpp"]
+# What the suite is made of: all of these folders, without their tests, and the checks of certify.
+FOLDERS = ["properties/machinery", "properties/generators", "properties/theorems", "corpus", "oracle", "engine/tests"]
+CHECKS = ["argument_check.cpp", "checks.cpp", "contract_checks.cpp", "judge.cpp", "mesh_checks.cpp"]
 LIBRARIES = ["-lfmt", "-lgmpxx", "-lgmp", "-lmpfr", "-ltinyobjloader", "-lpthread"]
 
 # SUREFILL_PLANT is false in the engine as it is shipped.
@@ -64,21 +73,20 @@ class Path:
     def __init__(self, name, files, sources, flags):
         self.name, self.files, self.sources = name, files, sources
         self.work = ROOT / "build/schemata" / name
-        self.flags = [*FLAGS, *flags, f"-I{self.work}/engine"]
+        self.flags = [*FLAGS, *flags]
         self.fast = name == "fast"
-        self.equivalent = SCHEMATA / ("equivalent-fast.txt" if self.fast else "equivalent.txt")
         self.active = {}  # of each file, the lines that the compiler sees
 
 
 ALWAYS = ["arguments.cpp", "exact/grid.cpp", "reference.cpp", "surefill.cpp", "viewport.cpp"]
-VECTOR = sorted(f"fast/{p.name}" for p in (ENGINE / "fast").glob("*-inl.hpp"))
+VECTOR_FILES = sorted(f"fast/{p.name}" for p in (ENGINE / "fast").glob("*-inl.hpp"))
 PATHS = {
     # What defines the engine's answers, and what the fast path falls back on.
     "reference": Path("reference", ["arguments.cpp", "exact/bounds.hpp", "exact/conservative.hpp", "exact/edge.hpp", "exact/exact.hpp",
                                     "exact/grid.cpp", "exact/grid.hpp", "reference.cpp", "exact/triangle.hpp", "viewport.cpp"], ALWAYS,
                       ["-DSUREFILL_REFERENCE_ONLY"]),
     # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one.
-    "fast": Path("fast", [*VECTOR, "exact/exact_draw.cpp", "exact/exact_draw.hpp",
+    "fast": Path("fast", [*VECTOR_FILES, "exact/exact_draw.cpp", "exact/exact_draw.hpp",
                           *(f"fast/{name}" for name in ("culling.hpp", "frame.cpp", "lists.hpp", "record.hpp", "store.hpp", "team.hpp", "tile.hpp"))],
                  [*ALWAYS, "exact/exact_draw.cpp", "fast/frame.cpp", "fast/kernels.cpp"],
                  ["-DHWY_COMPILE_ONLY_STATIC", "-march=x86-64-v3", "-maes", "-mpclmul"]),
@@ -138,7 +146,10 @@ def find_active(path):
     """Which lines of the sources the compiler sees, for this instruction set."""
     for source in path.sources:
         file, number = "", 0
-        for line in run_compiler(path, ["-E", ENGINE / source]).stdout.splitlines():
+        result = run_compiler(path, [f"-I{ENGINE}", "-E", ENGINE / source])
+        if result.returncode:
+            fail(f"{source} is not preprocessed by {COMPILER[-1]}:\n{result.stderr[:3000]}")
+        for line in result.stdout.splitlines():
             marker = re.match(r'# (\d+) "(.*)"', line)
             if marker:
                 file, number = marker[2].rpartition("/engine/src/")[2] if "/engine/src/" in marker[2] else "", int(marker[1])
@@ -192,38 +203,44 @@ def with_mutants(line, here):
 
 def write_sources(path, all_mutants, left_out):
     """The engine with all mutants but those on lines that do not compile. A line keeps its number."""
-    for source in ENGINE.iterdir():
-        if source.suffix not in (".cpp", ".hpp") or not source.is_file():
-            continue
-        text = source.read_text()
-        if source.name in path.files:
+    for source in ENGINE.rglob("*.[ch]pp"):
+        name, text = source.relative_to(ENGINE).as_posix(), source.read_text()
+        if name in path.files:
             lines, on_line = text.split("\n"), {}
             for number, m in enumerate(all_mutants, 1):
-                if m.file == source.name and number not in left_out:
+                if m.file == name and number not in left_out:
                     on_line.setdefault(m.line_number, []).append((number, m))
             for n, here in on_line.items():
                 lines[n - 1] = with_mutants(lines[n - 1], here)
-            header = "vector_mutant.hpp" if "-inl" in source.name else "mutant.hpp"
+            header = "vector_mutant.hpp" if "-inl" in name else "mutant.hpp"
             text = f'#include "{header}"\n#line 1\n' + "\n".join(lines)
-        copy = path.work / "engine" / source.name
+        copy = path.work / "engine" / name
+        copy.parent.mkdir(parents=True, exist_ok=True)
         if not copy.is_file() or copy.read_text() != text:
             copy.write_text(text)
 
 
 def run_compiler(path, arguments):
-    return subprocess.run([*COMPILER, *path.flags, *arguments], capture_output=True, text=True)
+    try:
+        return subprocess.run([*COMPILER, *path.flags, *arguments], capture_output=True, text=True)
+    except FileNotFoundError:
+        fail(f"no compiler {COMPILER[-1]} (CXX names another)")
+
+
+def object_of(path, source):
+    return path.work / (source.replace("/", "-") + ".o")
 
 
 def compile_engine(path, source, only_check):
     """With a sanitizer for accesses to memory, where there are pointers to go wrong."""
     address = ["-fsanitize=address"] if path.fast and source in path.files + ["fast/kernels.cpp"] else []
-    output = ["-fsyntax-only"] if only_check else ["-o", path.work / (source + ".o")]
-    return run_compiler(path, [*DEFINED, *address, "-ferror-limit=0", "-c", path.work / "engine" / source, *output])
+    output = ["-fsyntax-only"] if only_check else ["-o", object_of(path, source)]
+    return run_compiler(path, [f"-I{path.work}/engine", *DEFINED, *address, "-ferror-limit=0", "-c",
+                               path.work / "engine" / source, *output])
 
 
 def build(path, all_mutants, jobs):
     """Builds the program; returns the numbers of the mutants in it."""
-    (path.work / "engine").mkdir(parents=True, exist_ok=True)
     left_out = set()
     while True:
         write_sources(path, all_mutants, left_out)
@@ -234,22 +251,22 @@ def build(path, all_mutants, jobs):
             break
         # One error may lead to others on lines that are innocent.
         for what in (r"(?!.*(?:no member named|undeclared|no matching|expected '\)')).* error: ", ""):
-            bad = {(name, int(n)) for name, n in re.findall(r"(?:^|/)([\w.-]+):(\d+)(?::\d+)?:" + what, errors, re.M)}
+            bad = {(name, int(n)) for name, n in re.findall(r"/engine/((?:\w+/)?[\w.-]+):(\d+)(?::\d+)?:" + what, errors)}
             more = {number for number, m in enumerate(all_mutants, 1) if (m.file, m.line_number) in bad} - left_out
             if more:
                 break
         if not more:
             fail(f"the engine does not build:\n{errors[:3000]}")
         left_out |= more
-    suite = [p for d in ("properties/machinery", "properties/generators", "properties/theorems", "corpus", "oracle") for p in sorted((ROOT / d).glob("*.cpp"))
-             if not p.name.endswith("_test.cpp")] + [ROOT / "certify" / name for name in CHECKS]
+    suite = [p for folder in FOLDERS for p in sorted((ROOT / folder).glob("*.cpp")) if not p.name.endswith("_test.cpp")]
+    suite += [ROOT / "certify/run" / name for name in CHECKS]
     suite.append(SCHEMATA / "run.cpp")
     objects = [path.work / (p.parent.name + "-" + p.name + ".o") for p in suite]
 
     def compile_suite(pair):
         # run.cpp has the engine's headers, too.
         extra = {"meshes.cpp": ["-fdelayed-template-parsing"], "run.cpp": DEFINED}.get(pair[0].name, [])
-        return run_compiler(path, [*extra, "-c", pair[0], "-o", pair[1]])
+        return run_compiler(path, [f"-I{path.work}/engine", *extra, "-c", pair[0], "-o", pair[1]])
 
     with ThreadPoolExecutor(jobs) as pool:
         results = list(pool.map(lambda source: compile_engine(path, source, False), path.sources))
@@ -258,7 +275,7 @@ def build(path, all_mutants, jobs):
         if result.returncode:
             fail(f"the suite does not build:\n{result.stderr[:3000]}")
     link = subprocess.run([COMPILER[-1], *(["-fsanitize=address"] if path.fast else []), *objects,
-                           *(path.work / (s + ".o") for s in path.sources), "-o", path.work / "schemata", *LIBRARIES],
+                           *(object_of(path, source) for source in path.sources), "-o", path.work / "schemata", *LIBRARIES],
                           capture_output=True, text=True)
     if link.returncode:
         fail(f"the program does not link:\n{link.stderr[:3000]}")
@@ -270,20 +287,20 @@ def fail(text):
     sys.exit(2)
 
 
-def equivalents(path, all_mutants):
+def equivalents(all_mutants):
     """The names that are explained: reasons begin with #, names follow, or `FILE: all of FUNCTION()`. Also those among them
     that stand there by their own names."""
     names, functions = {m.name for m in all_mutants}, {}
     for m in all_mutants:
-        functions.setdefault(f"{m.file}: all of {m.function}()", set()).add(m.name)
+        functions.setdefault(f"{os.path.basename(m.file)}: all of {m.function}()", set()).add(m.name)
     explained, by_name, reason = set(), set(), ""
-    for line in path.equivalent.read_text().splitlines():
+    for line in (SCHEMATA / "equivalent.txt").read_text().splitlines():
         if not line.strip():
             reason = ""
         elif line.startswith("#"):
             reason += line
         elif not reason or line not in names and line not in functions:
-            fail(f"{path.equivalent.name}: {'no reason for' if reason == '' else 'no such mutant'}: {line}")
+            fail(f"equivalent.txt: {'no reason for' if reason == '' else 'no such mutant'}: {line}")
         elif line in functions:
             explained |= functions[line]
         else:
@@ -291,60 +308,89 @@ def equivalents(path, all_mutants):
     return explained | by_name, by_name
 
 
-def run_path(path, arguments):
-    everyone = mutants(path)
-    explained, by_name = equivalents(path, everyone)
+def run_program(path, everyone, numbers, arguments, tell):
+    """Has the suite meet these mutants, and calls tell(mutant, outcome, by whom) as each is done."""
+    program = [str(path.work / "schemata"), str(arguments.seconds)]
+    if subprocess.run([*program[:1], "5", "0"], capture_output=True, text=True).stdout.split()[1:2] != ["survived"]:
+        fail("the engine without a mutant is killed")
+
+    def run(share):
+        if not share:
+            return
+        with subprocess.Popen([*program, *map(str, share)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                              text=True) as process:
+            for line in process.stdout:
+                number, outcome, by = line.split()
+                tell(everyone[int(number) - 1], outcome, by)
+
+    with ThreadPoolExecutor(arguments.jobs) as pool:
+        list(pool.map(run, [numbers[i::arguments.jobs] for i in range(arguments.jobs)]))
+
+
+def run_reference(path, everyone, arguments):
+    explained, by_name = equivalents(everyone)
     if arguments.list:
         for number, m in enumerate(everyone, 1):
             print(f"{number} {m.name}{' (equivalent)' if m.name in explained else ''}")
         return 0
     index, count = map(int, arguments.shard.split("/"))
     in_program = build(path, everyone, arguments.jobs)
-    others = [n for n in in_program if everyone[n - 1].kind != "vector"][::arguments.every]
-    sample = sorted(others + [n for n in in_program if everyone[n - 1].kind == "vector"])
-    mine = [n for n in sample if n % count == index % count and arguments.only in everyone[n - 1].name]
+    mine = [n for n in in_program if n % count == index % count and arguments.only in everyone[n - 1].name]
     results_file = path.work / "results.txt"
     results = dict(line.rsplit("\t", 1) for line in results_file.read_text().splitlines()) if results_file.is_file() else {}
     killed = lambda n: results.get(everyone[n - 1].name, "").startswith("killed")
-    program = [str(path.work / "schemata"), str(arguments.seconds)]
-    if subprocess.run([*program[:1], "5", "0"], capture_output=True, text=True).stdout.split()[1:2] != ["survived"]:
-        fail("the engine without a mutant is killed")
-
-    def run(numbers):
-        if not numbers:
-            return
-        with subprocess.Popen([*program, *map(str, numbers)], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
-                              text=True) as process:
-            for line in process.stdout:
-                number, outcome, by = line.split()
-                m = everyone[int(number) - 1]
-                results[m.name] = f"{outcome} {by}"
-                print(f"{m.name}\t{outcome} {by}", file=out, flush=True)
-                if outcome != "killed" and m.name not in explained:
-                    print(f"survived: {m.name}", flush=True)
-
     # One that is explained, and has outlived the suite once, need not do so again.
     wanted = [n for n in mine if not killed(n) and not (everyone[n - 1].name in explained and everyone[n - 1].name in results)]
-    with ThreadPoolExecutor(arguments.jobs) as pool, open(results_file, "a") as out:
-        list(pool.map(run, [wanted[i::arguments.jobs] for i in range(arguments.jobs)]))
+    with open(results_file, "a") as out:
+        def tell(m, outcome, by):
+            results[m.name] = f"{outcome} {by}"
+            print(f"{m.name}\t{outcome} {by}", file=out, flush=True)
+            if outcome != "killed" and m.name not in explained:
+                print(f"survived: {m.name}", flush=True)
+
+        run_program(path, everyone, wanted, arguments, tell)
     wrong = [n for n in mine if killed(n) and everyone[n - 1].name in by_name]
     for n in wrong:
         print(f"not equivalent, {results[everyone[n - 1].name]}: {everyone[n - 1].name}")
     dead = sum(map(killed, mine))
     equal = sum(not killed(n) and everyone[n - 1].name in explained for n in mine)
     survivors = len(mine) - dead - equal
-    sampled = f" (sampled from {len(in_program)}: 1 of {arguments.every}, vector operations all)" if arguments.every > 1 else ""
-    print(f"{path.name} path: {len(mine)} mutants{sampled}, {dead} killed, {equal} explained as equivalent, "
+    print(f"reference path: {len(mine)} mutants, {dead} killed, {equal} explained as equivalent, "
           f"{survivors} unexplained survivors", flush=True)
     return 1 if survivors or wrong else 0
 
 
+def run_fast(path, everyone, arguments):
+    if arguments.list:
+        for number, m in enumerate(everyone, 1):
+            print(f"{number} {m.name}")
+        return 0
+    in_program = [n for n in build(path, everyone, arguments.jobs) if arguments.only in everyone[n - 1].name]
+    sample = sorted(random.Random(arguments.seed).sample(in_program, min(arguments.sample, len(in_program))))
+    outcomes = Counter()
+
+    def tell(m, outcome, by):
+        outcomes[outcome == "killed"] += 1
+        if outcome != "killed":
+            print(f"not killed: {m.name}", flush=True)
+
+    run_program(path, everyone, sample, arguments, tell)
+    print(f"fast path, sampled, {len(sample)} of {len(in_program)} mutants, seed {arguments.seed}: {outcomes[True]} killed, "
+          f"{outcomes[False]} not killed within {arguments.seconds:g} s", flush=True)
+    return 0
+
+
+def run_path(path, arguments):
+    return (run_fast if path.fast else run_reference)(path, mutants(path), arguments)
+
+
 def main():
-    parser = argparse.ArgumentParser(description="Kills mutants of the engine")
+    parser = argparse.ArgumentParser(description="Sees which mutants of the engine the suite kills")
     parser.add_argument("--path", choices=PATHS, help="of the engine (both)")
     parser.add_argument("--seconds", type=float, default=20, help="that a mutant may live (20)")
-    parser.add_argument("--shard", default="1/1", help="I/N: every Nth mutant, from the Ith")
-    parser.add_argument("--every", type=int, default=1, help="K: a sample: every vector operation, every Kth of the other mutants")
+    parser.add_argument("--shard", default="1/1", help="I/N: of the reference path every Nth mutant, from the Ith")
+    parser.add_argument("--sample", type=int, default=200, help="so many mutants of the fast path (200)")
+    parser.add_argument("--seed", type=int, default=1, help="that draws the sample (1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     parser.add_argument("--only", default="", help="mutants whose name holds this text")
     parser.add_argument("--list", action="store_true", help="show the mutants, run none")

@@ -20,14 +20,15 @@ SUITE = [*ENGINE, "oracle", "corpus", "properties"]
 ROOMS = {
     "hwy": [],  # Highway's headers
     "engine/include": [],
+    "engine/src/build_check.hpp": [],
     "engine/src/planted.hpp": [],
-    "engine/src/float_environment.hpp": [],
+    "engine/src/float_environment.hpp": ["engine/src/build_check.hpp"],
     "engine/src/frame.hpp": [*ENGINE],
-    "engine/src/exact": [*ENGINE, "engine/src/planted.hpp"],
+    "engine/src/exact": [*ENGINE, "engine/src/build_check.hpp", "engine/src/planted.hpp"],
     "engine/src/fast": [*ENGINE, "engine/src/exact", "engine/src/float_environment.hpp", "engine/src/frame.hpp",
-                        "engine/src/planted.hpp", "hwy"],
+                        "engine/src/build_check.hpp", "engine/src/planted.hpp", "hwy"],
     "engine/src": [*ENGINE, "engine/src/exact", "engine/src/fast", "engine/src/float_environment.hpp", "engine/src/frame.hpp",
-                   "engine/src/planted.hpp", "hwy"],
+                   "engine/src/build_check.hpp", "engine/src/planted.hpp", "hwy"],
     "python": [*ENGINE],
     "examples": [*ENGINE],  # those that embed the engine
     "oracle": [*ENGINE],

@@ -83,7 +83,8 @@ VECTOR_FILES = sorted(f"fast/{p.name}" for p in (ENGINE / "fast").glob("*-inl.hp
 PATHS = {
     # What defines the engine's answers, and what the fast path falls back on.
     "reference": Path("reference", ["arguments.cpp", "exact/bounds.hpp", "exact/conservative.hpp", "exact/edge.hpp", "exact/exact.hpp",
-                                    "exact/grid.cpp", "exact/grid.hpp", "reference.cpp", "exact/triangle.hpp", "viewport.cpp"], ALWAYS,
+                                    "exact/grid.cpp", "exact/grid.hpp", "exact/triangle.hpp", "overlap.hpp", "reference.cpp", "viewport.cpp"],
+                      ALWAYS,
                       ["-DSUREFILL_REFERENCE_ONLY"]),
     # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one.
     "fast": Path("fast", [*VECTOR_FILES, "exact/exact_draw.cpp", "exact/exact_draw.hpp",

@@ -146,6 +146,6 @@ PYBIND11_MODULE(_surefill, module) {
              arg("interpolation"), arg("fill_rule"), arg("front_face"), arg("cull"), arg("depth_test"),
              arg("depth_mode"), arg("conservative"), arg("initial_depth").noconvert(), arg("index").noconvert(),
              arg("depth").noconvert(), arg("barycentrics").noconvert(), arg("count").noconvert(), arg("threads"));
-  module.def("to_pixel", &to_pixel_arrays, arg("clip").noconvert(), arg("out").noconvert(), arg("width"),
-             arg("height"), arg("near_depth"), arg("far_depth"), arg("clip_depth"), arg("clip_y"));
+  module.def("to_pixel", &to_pixel_arrays, arg("clip").noconvert(), arg("out").noconvert(), arg("width"), arg("height"),
+             arg("near_depth"), arg("far_depth"), arg("clip_depth"), arg("clip_y"));
 }

@@ -78,7 +78,7 @@ class Path:
         self.active = {}  # of each file, the lines that the compiler sees
 
 
-ALWAYS = ["arguments.cpp", "exact/grid.cpp", "reference.cpp", "surefill.cpp", "viewport.cpp"]
+ALWAYS = ["arguments.cpp", "build_check.cpp", "exact/grid.cpp", "reference.cpp", "surefill.cpp", "viewport.cpp"]
 VECTOR_FILES = sorted(f"fast/{p.name}" for p in (ENGINE / "fast").glob("*-inl.hpp"))
 PATHS = {
     # What defines the engine's answers, and what the fast path falls back on.

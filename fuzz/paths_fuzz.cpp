@@ -70,9 +70,9 @@ void check(const corpus::Scene& scene, std::uint32_t how, std::uint32_t outputs_
   constexpr std::uint32_t kWithStream = 7, kWithExecutor = 6;
   use_instruction_set(how & 15u);
   const std::uint32_t more = outputs_byte >> 5;
-  Options fast{kThreads[how >> 4 & 15u], Path::automatic, {}};
+  Options fast{.threads = kThreads[how >> 4 & 15u]};
   if (more == kWithExecutor) fast.executor.run = run_backwards;
-  const Options slow{1, Path::reference, {}};
+  const Options slow{.path = Path::reference};
   const bool shading = (outputs_byte >> 3 & 3u) == 3;
   corpus::Outputs outputs{(outputs_byte & 1u) == 0, (outputs_byte & 2u) == 0, (outputs_byte & 4u) == 0, shading,
                           shading};

@@ -14,6 +14,10 @@
 #include "surefill/surefill.h"
 #include "surefill/surefill.hpp"
 
+struct surefill_context {
+  surefill::Context context;
+};
+
 struct surefill_occlusion {
   surefill::OcclusionBuffer buffer;
 };
@@ -162,6 +166,7 @@ class Arguments {
       if (!read_struct(from, SUREFILL_SIZE_TO(surefill_options, path), &c)) return SUREFILL_OPTIONS_STRUCT_SIZE;
       options_.threads = c.threads == 0 ? 1 : c.threads;
       options_.path = enumerator<Path>(c.path);
+      options_.context = c.context != nullptr ? &c.context->context : nullptr;
       read(Bytes(from, c.struct_size));
     }
     surefill_statistics unused;
@@ -367,6 +372,14 @@ surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_
   const Status status = made->buffer.resize(width, height, enumerator<DepthTest>(depth_test));
   if (status == Status::ok) *occlusion = made.release();
   return to_c(status);
+}
+
+surefill_context* surefill_context_create(void) {
+  return new (std::nothrow) surefill_context;
+}
+
+void surefill_context_destroy(surefill_context* context) {
+  delete context;
 }
 
 void surefill_occlusion_destroy(surefill_occlusion* occlusion) {

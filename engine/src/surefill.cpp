@@ -6,6 +6,7 @@
 #include "arguments.hpp"
 #include "build_check.hpp"
 #include "fast/frame.hpp"
+#include "fast/memory.hpp"
 #include "float_environment.hpp"
 #include "reference.hpp"
 
@@ -65,6 +66,14 @@ struct CallersCode {
 }
 
 }  // namespace
+
+Context::Context() noexcept = default;
+
+Context::~Context() {
+#if !defined(SUREFILL_REFERENCE_ONLY)
+  const fast::BorrowedMemory last(*this);
+#endif
+}
 
 SampleLocation sample_location(int samples, int n) noexcept {
   if (n < 0 || n >= samples) n = 0;

@@ -227,11 +227,18 @@ typedef struct surefill_target {
   uint32_t attribute_location; /* surefill_attribute_location */
 } surefill_target;
 
+/* Working memory that outlives calls: what one has allocated, the next ones with the same context use again. Several
+ * calls at a time may share one: all but one of them then have memory of their own. NULL if there is no memory. */
+typedef struct surefill_context surefill_context;
+SUREFILL_API surefill_context* surefill_context_create(void);
+SUREFILL_API void surefill_context_destroy(surefill_context* context); /* NULL does nothing */
+
 /* How a frame is drawn. */
 typedef struct surefill_options {
-  size_t struct_size; /* sizeof(surefill_options) */
-  int32_t threads;    /* 1..SUREFILL_MAX_THREADS; 0 means 1 */
-  uint32_t path;      /* surefill_path */
+  size_t struct_size;        /* sizeof(surefill_options) */
+  int32_t threads;           /* 1..SUREFILL_MAX_THREADS; 0 means 1 */
+  uint32_t path;             /* surefill_path */
+  surefill_context* context; /* where working memory comes from and stays, or NULL */
 } surefill_options;
 
 /* What one call did. The first group adds up to `triangles`. */

@@ -19,13 +19,14 @@
 //            A triangle with a NaN or an infinity is dropped and counted, and changes nothing else [B1].
 // Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
 //            only if Options asks for them, and they end with it; or it uses the caller's.
-// Memory     A call allocates what it needs and frees it: by what is asked for up to 36 MiB and 8 bytes a pixel (sides
-//            rounded up to 64), and 64 KiB a thread, however many triangles there are; on the reference path up to 8
-//            bytes a sample. When that cannot be had, the status is out_of_memory.
+// Memory     A call allocates what it needs and frees it, or leaves it to a Context: at most 12 bytes a sample, 32 MiB
+//            and 1 MiB a thread, however many triangles there are; on the reference path up to 8 bytes a sample. When
+//            that cannot be had, the status is out_of_memory.
 #ifndef SUREFILL_SUREFILL_HPP
 #define SUREFILL_SUREFILL_HPP
 
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -111,8 +112,8 @@ SUREFILL_API Status to_pixel(const Viewport& viewport, std::span<const ClipVerte
                              std::span<Vertex> out) noexcept;
 
 // Which side owns a sample that lies exactly on an edge [C3]: the sample is moved by an infinitely small step. The
-// first four move it in x first and in y only to settle ties along a horizontal edge; the next four in y first. The last
-// two move nothing: every side owns it, or none [C5]; they are not built yet, and render refuses them.
+// first four move it in x first and in y only to settle ties along a horizontal edge; the next four in y first. The
+// last two move nothing: every side owns it, or none [C5]; they are not built yet, and render refuses them.
 enum class FillRule : std::uint8_t {
   top_left,         // +x, then +y: Direct3D, Vulkan
   top_right,        // -x, then +y
@@ -243,11 +244,32 @@ struct Executor {
   void* context = nullptr;
 };
 
+namespace fast {
+class BorrowedMemory;
+}
+
+// Working memory that outlives calls: what one has allocated, the next ones with the same context use again, and do not
+// ask the system for; that pays the more, the smaller a frame is. It holds as much as the largest call has needed and
+// frees it when it ends, after all calls that use it. Several calls at a time may share one: all but one of them then
+// have memory of their own.
+class Context {
+ public:
+  SUREFILL_API Context() noexcept;
+  SUREFILL_API ~Context();
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+ private:
+  friend class fast::BorrowedMemory;
+  std::atomic<void*> memory_{nullptr};
+};
+
 // How a frame is drawn. The image does not depend on it.
 struct Options {
   int threads = 1;  // 1..kMaxThreads: into so many parts work is divided; if fewer can be started, fewer do the work
   Path path = Path::automatic;
-  Executor executor = {};  // whose threads work if `run` is not null; else the call starts threads - 1 of its own
+  Executor executor = {};      // whose threads work if `run` is not null; else the call starts threads - 1 of its own
+  Context* context = nullptr;  // where working memory comes from and stays, or null
 };
 
 // The samples of an 8 x 8 block of pixels that a triangle covers.
@@ -279,8 +301,8 @@ SUREFILL_API Status render(const Target& target, std::span<const Draw> draws, St
 // Streams coverage instead of storing an image: `visitor` receives, for each sample number, draw and triangle, the
 // blocks with samples that the triangle covers, as M2 counts them: dropped and culled triangles, scissor and depth clip
 // are taken into account, the depth test is not. Within a tile of 64 x 64 pixels the triangles of a sample number come
-// in order, all from one thread; with several threads, tiles of different rows come at once. The visitor returns
-// normally. Memory: 8 bytes a block and 4 more for each thread; where a draw clips depth, also 8 bytes a pixel.
+// in order and one at a time; with several threads, those of other tiles come at once. The visitor returns normally.
+// Memory: 32 MiB and 1 MiB a thread.
 SUREFILL_API Status visit_coverage(int width, int height, int samples, std::span<const Draw> draws,
                                    const CoverageVisitor& visitor, Statistics* statistics = nullptr,
                                    const Options& options = {}) noexcept;

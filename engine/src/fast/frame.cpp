@@ -42,7 +42,11 @@ class Frame {
  public:
   // The visitor may be null.
   Frame(const Target& target, std::span<const Draw> draws, const CoverageVisitor* visitor, const Options& options)
-      : target_(target), draws_(draws), threads_(options.threads), team_(options.threads, options.executor) {
+      : target_(target),
+        draws_(draws),
+        threads_(options.threads),
+        team_(options.threads, options.executor),
+        borrowed_(options.context) {
     for (const AttributeTarget& attribute : target.attributes) shading_ |= !attribute.values.empty();
     shading_ |= !target.barycentrics.empty();
     visibility_ = shading_ || !target.index.empty();
@@ -96,13 +100,13 @@ class Frame {
     const std::size_t begins = frame_.grid.tiles() + 2;
     jobs_.reset(new (std::nothrow) DrawJob[draws_.size()]);
     statistics_.reset(new (std::nothrow) Statistics[parts()]());
-    const bool ok = jobs_ != nullptr && statistics_ != nullptr && memory_.records.reserve(pieces * kPieceRecords) &&
-                    memory_.begin.reserve(pieces * begins) && memory_.items.reserve(pieces * kPiecePairs) &&
-                    memory_.scratch.reserve(parts());
+    const bool ok = memory_ != nullptr && jobs_ != nullptr && statistics_ != nullptr &&
+                    memory_->records.reserve(pieces * kPieceRecords) && memory_->begin.reserve(pieces * begins) &&
+                    memory_->items.reserve(pieces * kPiecePairs) && memory_->scratch.reserve(parts());
     for (std::size_t i = 0; ok && i < pieces; ++i) {
-      pieces_[i].records = &memory_.records[i * kPieceRecords];
-      pieces_[i].begin = &memory_.begin[i * begins];
-      pieces_[i].items = &memory_.items[i * kPiecePairs];
+      pieces_[i].records = &memory_->records[i * kPieceRecords];
+      pieces_[i].begin = &memory_->begin[i * begins];
+      pieces_[i].items = &memory_->items[i * kPiecePairs];
     }
     return ok;
   }
@@ -189,7 +193,7 @@ class Frame {
     run(end - first, [&](std::size_t i, std::size_t part) {
       if (is_set_up_[first + i]) return;
       is_set_up_[first + i] = true;
-      kernels_.set_up(frame_.grid, pieces_[first + i], memory_.scratch[part], statistics_[part]);
+      kernels_.set_up(frame_.grid, pieces_[first + i], memory_->scratch[part], statistics_[part]);
     });
   }
 
@@ -205,7 +209,7 @@ class Frame {
       const TileRow tiles =
           once ? tiles_at(part * static_cast<std::size_t>(strip_), row, begin, end) : tiles_of(row, begin, end);
       if (!cleared_) std::fill_n(tiles.opened, end - begin, std::uint8_t{0});
-      kernels_.draw_tiles(frame_, pieces, tiles, memory_.scratch[part], statistics_[part]);
+      kernels_.draw_tiles(frame_, pieces, tiles, memory_->scratch[part], statistics_[part]);
       if (!stored_) return;
       if (shading_) kernels_.shade(frame_, tiles, statistics_[part]);
       Store(frame_, tiles).run();
@@ -226,20 +230,20 @@ class Frame {
   // ---- tiles
   bool reserve_tiles(std::size_t tiles) {
     const std::size_t samples = tiles * kTileSamples;
-    return memory_.far.reserve(tiles) && memory_.opened.reserve(tiles) && (!depth_ || memory_.depth.reserve(samples)) &&
-           (!visibility_ || memory_.winner.reserve(samples)) &&
-           (target_.count.empty() || memory_.count.reserve(samples));
+    return memory_->far.reserve(tiles) && memory_->opened.reserve(tiles) &&
+           (!depth_ || memory_->depth.reserve(samples)) && (!visibility_ || memory_->winner.reserve(samples)) &&
+           (target_.count.empty() || memory_->count.reserve(samples));
   }
   TileRow tiles_at(std::size_t first, int row, int begin, int end) const {
     const std::size_t sample = first * kTileSamples;
     return {row,
             begin,
             end,
-            depth_ ? memory_.depth.data() + sample : nullptr,
-            visibility_ ? memory_.winner.data() + sample : nullptr,
-            target_.count.empty() ? nullptr : memory_.count.data() + sample,
-            memory_.far.data() + first,
-            memory_.opened.data() + first};
+            depth_ ? memory_->depth.data() + sample : nullptr,
+            visibility_ ? memory_->winner.data() + sample : nullptr,
+            target_.count.empty() ? nullptr : memory_->count.data() + sample,
+            memory_->far.data() + first,
+            memory_->opened.data() + first};
   }
   TileRow tiles_of(int row, int begin, int end) const {
     return tiles_at(static_cast<std::size_t>(row * frame_.grid.columns + begin), row, begin, end);
@@ -266,7 +270,8 @@ class Frame {
   bool whole_ = false;    // there is memory for all tiles
   bool cleared_ = false;  // and what `opened` says is true
 
-  Memory memory_;
+  const BorrowedMemory borrowed_;
+  Memory* const memory_ = borrowed_.get();
   std::unique_ptr<DrawJob[]> jobs_;
   std::unique_ptr<Statistics[]> statistics_;  // of each part
 };

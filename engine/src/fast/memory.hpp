@@ -6,6 +6,7 @@
 
 #include <cstdlib>
 #include <memory>
+#include <new>
 
 #include "fast/tile.hpp"
 
@@ -61,6 +62,30 @@ struct Memory {
   Buffer<float> depth, far;
   Buffer<std::uint32_t> winner, count;
   Buffer<std::uint8_t> opened;
+};
+
+// A call's memory: that of a context, where it goes back, or its own.
+class BorrowedMemory {
+ public:
+  explicit BorrowedMemory(Context* context) : context_(context) {
+    if (context != nullptr) memory_.reset(static_cast<Memory*>(context->memory_.exchange(nullptr)));
+    if (memory_ == nullptr) memory_.reset(new (std::nothrow) Memory);
+  }
+  // What a context that ends still holds.
+  explicit BorrowedMemory(Context& last) : memory_(static_cast<Memory*>(last.memory_.exchange(nullptr))) {}
+  ~BorrowedMemory() {
+    if (context_ == nullptr) return;
+    memory_.reset(
+        static_cast<Memory*>(context_->memory_.exchange(memory_.release())));  // another call's, if it has some
+  }
+  BorrowedMemory(const BorrowedMemory&) = delete;
+  BorrowedMemory& operator=(const BorrowedMemory&) = delete;
+
+  Memory* get() const { return memory_.get(); }  // null if there is none
+
+ private:
+  Context* context_ = nullptr;
+  std::unique_ptr<Memory> memory_;
 };
 
 }  // namespace surefill::fast

@@ -415,7 +415,7 @@ TEST(Memory, CRender) {
   EXPECT_EQ(refused, 6);  // the draws, their attributes, their vertices
   for (const auto& [name, cpp] : kWays) {
     if (cpp.executor.run != nullptr) continue;
-    const surefill_options options{sizeof options, cpp.threads, static_cast<std::uint32_t>(cpp.path)};
+    const surefill_options options{sizeof options, cpp.threads, static_cast<std::uint32_t>(cpp.path), nullptr};
     const int of_render = check(
         {std::string("surefill_render, ") + name,
          prepare,
@@ -464,7 +464,7 @@ TEST(Memory, COcclusion) {
   const Bytes clear = state();
   for (const auto& [name, cpp] : kWays) {
     if (cpp.executor.run != nullptr) continue;
-    const surefill_options options{sizeof options, cpp.threads, static_cast<std::uint32_t>(cpp.path)};
+    const surefill_options options{sizeof options, cpp.threads, static_cast<std::uint32_t>(cpp.path), nullptr};
     const int refused = check(
         {std::string("surefill_occlusion_draw, ") + name,
          [&] {

@@ -31,6 +31,10 @@ Theorem M5_strict_order : strict_order later.
 Proof.
   split; intros; try match goal with H : key _ <> key _ |- _ => apply key_differs in H end; orders; lia.
 Qed.
+(* V2, M5: of equal identifiers the one of smaller position is visible, without depth write the last one. *)
+Theorem V2_position greater f g : depth f = depth g -> index (source f) = index (source g) ->
+  position (source f) < position (source g) -> nearer greater f g = true /\ later g f = true.
+Proof. intros A B C. split; orders; lia. Qed.
 Lemma draw_order (d : draw) greater : strict_order (if depth_write d then nearer greater else later).
 Proof. destruct (depth_write d); [apply V1_strict_order|exact M5_strict_order]. Qed.
 

@@ -19,6 +19,8 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "corpus/text_file.hpp"
+
 namespace surefill::meshes {
 
 namespace {
@@ -71,6 +73,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
 class Check {
  public:
   Check(std::string_view text, std::string_view file) : file_(file) {
+    if (const std::string other = corpus::what_is_not_read(text); !other.empty()) fail(file, 1, other);
     std::size_t begin = 0;
     while (begin < text.size()) {
       // A line ends as tinyobjloader has it: also at a carriage return alone.
@@ -175,7 +178,9 @@ class Check {
   }
 
   void check_line(std::string_view line) {
-    if (line.find('\0') != std::string_view::npos) fail(file_, line_, "not a text file");
+    if (line.find('\0') != std::string_view::npos) {
+      fail(file_, line_, fmt::format("not a text file: {}", corpus::kWhatIsRead));
+    }
     const std::vector<std::string_view> words = words_of(line);
     if (words.empty() || words[0].starts_with('#')) return;
     if (words.back().ends_with('\\')) fail(file_, line_, "lines continued by a backslash are not supported");
@@ -197,14 +202,18 @@ class Check {
           "curv",     "curv2",    "surf",       "cstype",    "deg",   "bmat",   "step",   "parm",   "trim",
           "hole",     "scrv",     "sp",         "end",       "con",   "mg",     "bevel",  "lod",    "call",
           "c_interp", "d_interp", "shadow_obj", "trace_obj", "ctech", "stech",  "usemap", "maplib", "vw"};
+      if (words[0] == "surefill-scene") fail(file_, line_, "this is a scene: its name must end in .scene");
       if (std::find(std::begin(kOther), std::end(kOther), words[0]) == std::end(kOther)) {
-        fail(file_, line_, fmt::format("\"{}\" is no OBJ statement", words[0].substr(0, 40)));
+        // The file may be of another kind, unless it has been read for a while.
+        const std::string hint = statements_ == 0 ? fmt::format(": {}", corpus::kWhatIsRead) : "";
+        fail(file_, line_, fmt::format("\"{}\" is no OBJ statement{}", words[0].substr(0, 40), hint));
       }
     }
+    ++statements_;
   }
 
   std::string_view file_;
-  std::size_t line_ = 0;
+  std::size_t line_ = 0, statements_ = 0;
   std::uint64_t counts_[3] = {0, 0, 0};
   std::vector<Range> forward_;  // references to what comes later, looked at again at the end
 };
@@ -232,7 +241,8 @@ std::vector<Float3> smooth_normals(const std::vector<Float3>& positions, const s
 
 }  // namespace
 
-Mesh parse_obj(std::string_view text, std::string_view file) {
+Mesh parse_obj(std::string_view bytes, std::string_view file) {
+  const std::string_view text = corpus::without_byte_order_mark(bytes);
   const Check check(text, file);
   tinyobj::ObjReaderConfig config;
   config.triangulate = true;

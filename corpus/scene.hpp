@@ -86,8 +86,8 @@ class SceneError : public std::runtime_error {
 };
 
 // Reads the text form. `file` is the name used in messages. Refuses what it does not know: another version, unknown or
-// repeated keywords, out-of-range numbers, sizes outside S5, vertex numbers that name no vertex, missing attribute values,
-// identifiers on some triangles only. Throws SceneError.
+// repeated keywords, out-of-range numbers, sizes outside S5, vertex numbers that name no vertex, missing attribute
+// values, identifiers on some triangles only. Throws SceneError.
 Scene read_scene(std::string_view text, std::string_view file = "scene");
 
 // Reads a file. Throws SceneError, also when the file is missing, a directory or unreadable.
@@ -127,7 +127,7 @@ class Frame {
   Frame(const Frame&) = delete;
   Frame& operator=(const Frame&) = delete;
 
-  const Target& target() const { return target_; }         // its spans point into image()
+  const Target& target() const { return target_; }  // its spans point into image()
   std::span<const Draw> draws() const { return draws_; }
   const Image& image() const { return image_; }
   Image& image() { return image_; }

@@ -12,6 +12,7 @@
 
 #include "corpus/names.hpp"
 #include "corpus/scene.hpp"
+#include "corpus/text_file.hpp"
 #include "engine/src/planted.hpp"
 
 namespace surefill::corpus {
@@ -37,9 +38,10 @@ std::string quoted(std::string_view field) {
 
 class Reader {
  public:
-  Reader(std::string_view text, std::string_view file) : rest_(text), file_(file) {}
+  Reader(std::string_view text, std::string_view file) : rest_(without_byte_order_mark(text)), file_(file) {}
 
   Scene read() {
+    if (const std::string other = what_is_not_read(rest_); !other.empty()) fail(other);
     read_version();
     while (next_line()) {
       if (fields_[0] == "draw") {
@@ -174,9 +176,12 @@ class Reader {
   }
 
   float hexfloat(std::string_view field, std::string_view digits) const {
-    // With at most 13 hex digits, 52 bits, the double is exact, and so is the comparison with its float.
+    // With at most 13 hex digits, 52 bits, the double is exact, and so is the comparison with its float. Zeros at the
+    // end of a fraction say nothing: 0x1.8000000000000p+0 is how Python writes 1.5.
     constexpr std::size_t kMaxHexDigits = 13;
-    const std::string_view significand = digits.substr(0, digits.find('p'));
+    std::string_view significand = digits.substr(0, digits.find('p'));
+    if (significand.find('.') != significand.npos)
+      significand = significand.substr(0, significand.find_last_not_of('0') + 1);
     double value = 0;
     const auto [end, error] =
         std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "certify/commands/certify_command.hpp"
+#include "certify/commands/options.hpp"
 #include "certify/run/files.hpp"
 #include "certify/run/progress.hpp"
 #include "mutation/matrix.hpp"
@@ -25,8 +26,9 @@ struct Arguments {
 };
 
 int run(Arguments& arguments) {
-  for (const std::string& file : {arguments.markdown, arguments.picture})
-    if (!file.empty()) certify::check_writable(file);
+  const certify::OutputFile outputs[] = {{"--markdown", arguments.markdown, {".md"}},
+                                         {"--picture", arguments.picture, {".svg"}}};
+  certify::check_outputs(outputs, {&arguments.rivals.plugin, 1});
   certify::catch_interrupts();
   if (!arguments.rivals.plugin.empty()) {
     arguments.rivals.settings.level = certify::level_named(arguments.level);
@@ -51,19 +53,18 @@ int parse_and_run(int argc, char** argv) {
   arguments.options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   arguments.options.cases = 500;
   CLI::App app("Holds wrong rasterizers against every property: all must be killed.", "surefill-zoo");
-  app.add_option("--cases", arguments.options.cases, "Of each property (500)")->check(CLI::Range(1, 100000000));
+  certify::add_whole_number(app, "--cases", arguments.options.cases, 1, 100000000, "Of each property (500)");
   app.add_option("--markdown", arguments.markdown, "Write the table there")
       ->needs(app.add_option("--picture", arguments.picture, "Draw the matrix there, as SVG"));
-  app.add_option("--jobs", arguments.options.jobs, "Threads (all cores)")->check(CLI::Range(1, 4096));
+  certify::add_whole_number(app, "--jobs", arguments.options.jobs, 1, 4096, "Threads (all cores)");
   CLI::Option* plugin = app.add_option("--plugin", arguments.rivals.plugin,
                                        "libsurefill_zoo.so: certify each as a rival behind the adapter instead");
-  app.add_option("--only", arguments.rivals.only, "Names with * and ?, separated by commas")
-      ->delimiter(',')
-      ->needs(plugin);
+  certify::add_names(app, "--only", arguments.rivals.only, "Names with * and ?, separated by commas")->needs(plugin);
   app.add_option("--level", arguments.level, "Of certify: quick, standard or thorough (quick)")
       ->check(CLI::IsMember({"quick", "standard", "thorough"}))
       ->needs(plugin);
   try {
+    certify::refuse_empty_values(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);

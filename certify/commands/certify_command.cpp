@@ -12,6 +12,7 @@
 #include <optional>
 #include <utility>
 
+#include "certify/commands/options.hpp"
 #include "certify/report/certificate.hpp"
 #include "certify/report/report_files.hpp"
 #include "certify/rivals/rival_checks.hpp"
@@ -98,6 +99,10 @@ std::vector<Check> selected(std::vector<Check> checks, const std::vector<std::st
   return checks;
 }
 
+std::vector<OutputFile> reports(const std::string& json, const std::string& junit, const std::string& html) {
+  return {{"--json", json, {".json"}}, {"--junit", junit, {".xml"}}, {"--html", html, {".html", ".htm"}}};
+}
+
 void write_reports(const Certificate& certificate, const std::string& json, const std::string& junit,
                    const std::string& html) {
   if (!json.empty()) write_file(json, certificate_json(certificate));
@@ -120,19 +125,22 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
   facts.problems = subject.inference.problems;
 }
 
-// A rival that cannot even be met is a finding by itself, and the only one.
-Certificate unmet(Facts facts, const RivalChoice& choice, const std::string& finding) {
-  facts.rival = choice.plugin.empty() ? choice.command : choice.plugin;
+// A rival that draws nothing is a finding by itself, and the only one.
+Certificate unmet(Facts facts, const adapters::Rival& rival) {
+  facts.rival = rival.info().name;
+  facts.rival_version = rival.info().version;
   facts.declared_model = facts.inferred_model = facts.model = "unknown";
   CheckResult result;
   result.name = "probing";
   result.rule = "C2";
-  result.claim = "it can be opened, and draws a few triangles in front of the eye";
+  result.claim = "it draws a few triangles in front of the eye";
   result.group = kInvariants;
-  result.unit = "rasterizer";
+  result.unit = "probes";
   result.exhaustive = true;
-  result.cases = result.due = result.done = result.resume = result.failed = result.differences = 1;
-  result.finding = finding;
+  result.cases = facts.shard.count;  // one a shard
+  result.due = result.done = result.resume = result.failed = result.differences = 1;
+  result.case_number = facts.shard.index - 1;
+  result.finding = rival.why_given_up();
   return {facts, {result}};
 }
 
@@ -161,8 +169,16 @@ void add_rival_options(CLI::App& app, RivalChoice& choice) {
       ->excludes(plugin)
       ->excludes(adapter);
   app.add_option("--plugin-arguments", choice.arguments, "What the rasterizer is opened with");
-  app.add_option("--time-limit", choice.time_limit, "Seconds it may take for one scene (5)")
-      ->check(CLI::Range(0.01, 3600.0));
+  add_decimal(
+      app, "--time-limit", 0.01, 3600, [&choice](double seconds) { choice.time_limit = seconds; },
+      "Seconds it may take for one scene (5)");
+}
+
+std::vector<std::string> RivalChoice::files() const {
+  std::vector<std::string> named{plugin};
+  if (command.empty()) return named;
+  for (const std::string& word : words_of(command)) named.push_back(word);
+  return named;
 }
 
 std::unique_ptr<adapters::Rival> start_rival(const RivalChoice& choice) {
@@ -176,13 +192,14 @@ std::unique_ptr<adapters::Rival> start_rival(const RivalChoice& choice) {
         choice.adapter.empty() ? std::filesystem::absolute(choice.plugin) : driver_plugin(choice.adapter, self);
     if (!std::filesystem::is_regular_file(plugin, error)) throw UsageError(plugin.string() + ": no such file");
     // A path, so that the loader does not look elsewhere.
-    options.command = {self.string(), "plugin-host", plugin.string(), choice.arguments};
+    options.command = {self.string(), "plugin-host", plugin.string()};
+    if (!choice.arguments.empty()) options.command.push_back(choice.arguments);
   } else {
     options.command = words_of(choice.command);
   }
   try {
     return std::make_unique<adapters::Rival>(std::move(options));
-  } catch (const adapters::RivalSkips& reason) {
+  } catch (const adapters::RivalUnopened& reason) {
     throw UsageError(std::string("nothing to judge: ") + reason.what());
   }
 }
@@ -190,15 +207,15 @@ std::unique_ptr<adapters::Rival> start_rival(const RivalChoice& choice) {
 void add_certify_options(CLI::App& app, CertifyOptions& options) {
   app.add_option("--level", options.level, "quick (seconds), standard (minutes) or thorough")
       ->check(CLI::IsMember({"quick", "standard", "thorough"}));
-  app.add_option("--seed", options.seed, "Of the sampled cases (1)");
-  app.add_option("--only", options.only, "Names of checks, with * and ?, separated by commas")->delimiter(',');
+  add_whole_number(app, "--seed", options.seed, 0, ~std::uint64_t{0}, "Of the sampled cases (1)");
+  add_names(app, "--only", options.only, "Names of checks, with * and ?, separated by commas");
   app.add_flag("--list", options.list, "Name the checks and what they claim; run none");
   add_rival_options(app, options.rival);
   app.add_option("--json", options.json, "Write the certificate there, too, as JSON");
   app.add_option("--junit", options.junit, "The same as JUnit XML");
   app.add_option("--html", options.html, "The same as one page with pictures of the findings");
   app.add_option("--output-dir", options.output_directory, "Folder for reduced scenes (.)");
-  app.add_option("--jobs", options.jobs, "Threads (all cores)")->check(CLI::Range(1, 4096));
+  add_whole_number(app, "--jobs", options.jobs, 1, 4096, "Threads (all cores)");
   app.add_option("--shard", options.shard, "I/N: part I of N of all cases; `surefill merge` joins them");
   app.add_option("--resume", options.resume, "Keep the state there, and go on from it if it is there");
   app.add_option("--corpus", options.corpus, "Folder of cases/ and meshes/");
@@ -214,9 +231,9 @@ int run_certify(const CertifyOptions& options, const std::function<std::string()
   settings.seed = options.seed;
   settings.engine = properties::engine_renderer();
   const Shard shard = shard_of(options.shard);
-  for (const std::string* path : {&options.json, &options.junit, &options.html, &options.resume}) {
-    if (!path->empty()) check_writable(*path);
-  }
+  std::vector<OutputFile> outputs = reports(options.json, options.junit, options.html);
+  outputs.push_back({"--resume", options.resume, {}});
+  check_outputs(outputs, options.rival.files());
   if (!options.list) {
     settings.corpus = options.corpus.empty() ? find_corpus() : options.corpus;
     check_folder(options.output_directory);
@@ -230,20 +247,18 @@ int run_certify(const CertifyOptions& options, const std::function<std::string()
   std::unique_ptr<adapters::Rival> rival;
   RivalSubject subject;
   if (options.rival.chosen()) {
-    try {
-      rival = start_rival(options.rival);
-      const surefill_adapter_model declared = rival->info().model;
-      subject = meet_rival(*rival);
-      subject.slow = !options.rival.command.empty();
-      subject.replay_option = options.rival.as_options();
-      add_rival_facts(*rival, subject, declared, facts);
-    } catch (const std::runtime_error& failure) {
-      if (dynamic_cast<const UsageError*>(&failure)) throw;
-      const Certificate certificate = unmet(facts, options.rival, failure.what());
+    rival = start_rival(options.rival);
+    const surefill_adapter_model declared = rival->info().model;
+    subject = meet_rival(*rival);
+    if (rival->given_up()) {
+      const Certificate certificate = unmet(facts, *rival);
       print(check_line(certificate.results[0], options.seed) + verdict_block(certificate.results, certificate.facts));
       write_reports(certificate, options.json, options.junit, options.html);
       return kBad;
     }
+    subject.slow = !options.rival.command.empty();
+    subject.replay_option = options.rival.as_options();
+    add_rival_facts(*rival, subject, declared, facts);
   } else if (!options.list) {
     settings.support = probe_support(settings.engine);
   }
@@ -295,6 +310,9 @@ int run_certify(const CertifyOptions& options, const std::function<std::string()
       [&settings](const CheckResult& result) { print(check_line(result, settings.seed)); }, earlier.results, save);
   facts.seconds = seconds();
   facts.interrupted = interrupted();
+  const bool complete = std::all_of(certificate.results.begin(), certificate.results.end(),
+                                    [](const CheckResult& result) { return result.complete(); });
+  if (rival && !complete && rival->given_up()) facts.stopped = rival->why_given_up();
   certificate.facts = facts;
   print(verdict_block(certificate.results, facts));
   write_reports(certificate, options.json, options.junit, options.html);
@@ -309,9 +327,7 @@ void add_merge_options(CLI::App& app, MergeOptions& options) {
 }
 
 int run_merge(const MergeOptions& options) {
-  for (const std::string* path : {&options.json, &options.junit, &options.html}) {
-    if (!path->empty()) check_writable(*path);
-  }
+  check_outputs(reports(options.json, options.junit, options.html), options.shards);
   std::vector<Certificate> shards;
   for (const std::string& path : options.shards) shards.push_back(read_certificate_file(path));
   const Certificate whole = merge(shards, options.shards);

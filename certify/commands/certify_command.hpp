@@ -31,11 +31,12 @@ struct RivalChoice {
   double time_limit = 5;  // seconds for a scene
 
   bool chosen() const { return !plugin.empty() || !adapter.empty() || !command.empty(); }
-  std::string as_options() const;  // as a shell takes them
+  std::string as_options() const;          // as a shell takes them
+  std::vector<std::string> files() const;  // what may be a file of the rasterizer, so that no output goes there
 };
 void add_rival_options(CLI::App& app, RivalChoice& choice);
 
-// Starts it. Throws UsageError where there is nothing to start, RivalFailure where it does not answer.
+// Starts it. Throws UsageError where it cannot be started or opened.
 std::unique_ptr<adapters::Rival> start_rival(const RivalChoice& choice);
 
 struct CertifyOptions {

@@ -6,10 +6,15 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
-#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <functional>
 #include <map>
+#include <sstream>
+#include <system_error>
 
 #include "certify/report/svg.hpp"
 #include "certify/run/files.hpp"
@@ -127,20 +132,36 @@ void draw_traversal(const Panel& panel, const Explained& scene, const Recorder& 
   draw_outline(panel, scene.triangles[scene.chosen]);
 }
 
-// PNG by librsvg's program, so that nothing here draws a picture twice.
-void write_picture(const std::string& svg, const std::string& path) {
-  if (path.ends_with(".svg")) return write_file(path, svg);
-  if (!path.ends_with(".png")) throw std::runtime_error(path + ": expected a name that ends in .svg or .png");
-  const std::string source = path + ".tmp.svg";
-  write_file(source, svg);
-  std::string program = "rsvg-convert", output = "--output=" + path, input = source;
-  char* arguments[] = {program.data(), output.data(), input.data(), nullptr};
-  pid_t child = 0;
+// PNG by librsvg's program, so that nothing here draws a picture twice. It works in a folder of its own.
+std::string png_of(const std::string& svg, const std::string& path) {
+  namespace fs = std::filesystem;
+  std::string folder = (fs::temp_directory_path() / "surefill-XXXXXX").string();
+  if (::mkdtemp(folder.data()) == nullptr) throw FileError(folder + ": " + std::generic_category().message(errno));
+  const std::string source = folder + "/picture.svg", result = folder + "/picture.png";
   int status = -1;
-  if (posix_spawnp(&child, "rsvg-convert", nullptr, nullptr, arguments, environ) == 0) waitpid(child, &status, 0);
-  std::remove(source.c_str());
-  if (status != 0)
+  std::string bytes;
+  std::error_code error;
+  try {
+    write_file(source, svg);
+    std::string program = "rsvg-convert", output = "--output=" + result, input = source;
+    char* arguments[] = {program.data(), output.data(), input.data(), nullptr};
+    pid_t child = 0;
+    if (posix_spawnp(&child, "rsvg-convert", nullptr, nullptr, arguments, environ) == 0) waitpid(child, &status, 0);
+    std::ostringstream read;
+    read << std::ifstream(result, std::ios::binary).rdbuf();
+    bytes = std::move(read).str();
+  } catch (...) {
+    fs::remove_all(folder, error);
+    throw;
+  }
+  fs::remove_all(folder, error);
+  if (status != 0 || bytes.empty())
     throw std::runtime_error(path + ": PNG needs rsvg-convert (Debian: librsvg2-bin); an .svg needs nothing");
+  return bytes;
+}
+
+void write_picture(const std::string& svg, const std::string& path) {
+  write_file(path, has_ending(path, ".svg") ? svg : png_of(svg, path));
 }
 
 }  // namespace
@@ -401,7 +422,11 @@ std::vector<std::string> view_names() {
 std::string explain(const ExplainOptions& options) {
   if (options.counts) return count_table();
   if (options.output.empty()) throw std::runtime_error("explain: -o FILE.svg or FILE.png is needed");
-  check_writable(options.output);
+  if (options.tile != 4 && options.tile != 8 && options.tile != 16 && options.tile != 32 && options.tile != 64) {
+    throw std::runtime_error(fmt::format("--tile {}: expected 4, 8, 16, 32 or 64", options.tile));
+  }
+  const OutputFile output{"-o", options.output, {".svg", ".png"}};
+  check_outputs({&output, 1}, {&options.input, 1});
   if (options.view == "affine-w" || options.view == "lines") {
     write_picture(options.view == "lines" ? line_view() : affine_w_view(), options.output);
     return "";

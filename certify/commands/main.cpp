@@ -13,6 +13,7 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <string>
 #include <thread>
@@ -21,6 +22,7 @@
 #include "certify/commands/certify_command.hpp"
 #include "certify/commands/corpus_add.hpp"
 #include "certify/commands/explain.hpp"
+#include "certify/commands/options.hpp"
 #include "certify/commands/replay.hpp"
 #include "certify/report/picture.hpp"
 #include "certify/report/report.hpp"
@@ -48,6 +50,10 @@ void warn(const std::string& text) {
 }
 
 // --- render
+
+void check_output(const OutputFile& output, const std::vector<std::string>& inputs) {
+  check_outputs({&output, 1}, inputs);
+}
 
 struct RenderOptions {
   std::string input, output, size, eye, target, up, show = "depth", cull, renderer = "engine";
@@ -80,8 +86,8 @@ meshes::Double3 parse_point(const char* option, const std::string& text) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t comma = rest.find(',');
     const auto value = whole_number<double>(rest.substr(0, comma));
-    if (!value || !std::isfinite(*value) || (axis < 2) != (comma != std::string_view::npos)) {
-      throw UsageError(fmt::format("{} {}: expected three numbers x,y,z", option, text));
+    if (!value || !(std::abs(*value) <= 1e38) || (axis < 2) != (comma != std::string_view::npos)) {
+      throw UsageError(fmt::format("{} {}: expected three numbers x,y,z from -1e38 to 1e38", option, text));
     }
     point[axis] = *value;
     if (axis < 2) rest.remove_prefix(comma + 1);
@@ -146,7 +152,7 @@ corpus::Scene scene_to_render(const RenderOptions& options, Show show) {
 int run_render(const RenderOptions& options) {
   const std::optional<Show> show = show_by_name(options.show);
   if (!show) throw UsageError("--show " + options.show + ": expected depth, index, barycentrics, normals or count");
-  check_writable(options.output);
+  check_output({"-o", options.output, {".png"}}, {options.input});
   corpus::Scene scene = scene_to_render(options, *show);
   if (!options.cull.empty()) {
     const Cull cull = options.cull == "front" ? Cull::front : options.cull == "back" ? Cull::back : Cull::none;
@@ -211,7 +217,9 @@ struct ReduceOptions {
 };
 
 int run_reduce(const ReduceOptions& options) {
-  check_writable(options.output);
+  std::vector<std::string> inputs = options.rival.files();
+  inputs.push_back(options.input);
+  check_output({"-o", options.output, {".scene"}}, inputs);
   corpus::Scene scene = corpus::read_scene_file(options.input);
   const properties::Renderer other =
       options.second_oracle ? properties::clipped_oracle_renderer() : properties::engine_renderer();
@@ -228,7 +236,7 @@ int run_reduce(const ReduceOptions& options) {
   scene = properties::reduce(std::move(scene), fails, {std::chrono::seconds(options.seconds)});
   if (interrupted()) return kInterrupted;
   scene.comment = comment;
-  corpus::write_scene_file(scene, options.output);
+  write_file(options.output, corpus::write_scene(scene));
   return kGood;
 }
 
@@ -254,9 +262,14 @@ int run(int argc, char** argv) {
   render_command->add_option("--eye", render_options.eye, "Where the camera is: x,y,z (sees the whole mesh)");
   render_command->add_option("--target", render_options.target, "What it looks at: x,y,z (the middle of the mesh)");
   render_command->add_option("--up", render_options.up, "What is up: x,y,z (0,1,0)");
-  render_command->add_option("--fov", render_options.field_of_view, "Vertical field of view in degrees (40)");
-  render_command->add_option("--near", render_options.near_plane, "Distance of the near plane (fits the mesh)");
-  render_command->add_option("--far", render_options.far_plane, "Distance of the far plane (fits the mesh)");
+  const auto add_number = [&](const char* name, std::optional<double>& value, double least, double most,
+                              const char* text) {
+    add_decimal(
+        *render_command, name, least, most, [&value](double number) { value = number; }, text);
+  };
+  add_number("--fov", render_options.field_of_view, 0, 180, "Vertical field of view in degrees (40)");
+  add_number("--near", render_options.near_plane, 1e-38, 1e38, "Distance of the near plane (fits the mesh)");
+  add_number("--far", render_options.far_plane, 1e-38, 1e38, "Distance of the far plane (fits the mesh)");
   render_command->add_option("--show", render_options.show, "depth, index, barycentrics, normals or count")
       ->check(CLI::IsMember({"depth", "index", "barycentrics", "normals", "count"}));
   render_command->add_option("--cull", render_options.cull, "Which faces are left out: none, front or back")
@@ -294,7 +307,7 @@ int run(int argc, char** argv) {
   reduce_command->add_option("-o,--output", reduce_options.output, "The smaller scene to write")->required();
   reduce_command->add_flag("--second-oracle", reduce_options.second_oracle, "The two oracles differ, not the engine");
   add_rival_options(*reduce_command, reduce_options.rival);
-  reduce_command->add_option("--seconds", reduce_options.seconds, "Time it may take (60)")->check(CLI::Range(1, 86400));
+  add_whole_number(*reduce_command, "--seconds", reduce_options.seconds, 1, 86400, "Time it may take (60)");
 
   ExplainOptions explain_options;
   CLI::App* explain_command = app.add_subcommand("explain", "Picture how the techniques of the textbook see a scene");
@@ -306,9 +319,9 @@ int run(int argc, char** argv) {
       ->check(CLI::IsMember(strategy_names()));
   explain_command->add_flag("--compare", explain_options.compare, "All traversals side by side, with their counts");
   explain_command->add_flag("--values", explain_options.values, "Write the edge values at each sample");
-  explain_command->add_option("--tile", explain_options.tile, "Size of the (largest) tiles (16)")
-      ->check(CLI::IsMember({4, 8, 16, 32, 64}));
-  explain_command->add_option("--triangle", explain_options.triangle, "Number of the triangle to show (0)");
+  add_whole_number(*explain_command, "--tile", explain_options.tile, 4, 64, "Size of the (largest) tiles (16)");
+  add_whole_number(*explain_command, "--triangle", explain_options.triangle, 0, std::numeric_limits<int>::max(),
+                   "Number of the triangle to show (0)");
   explain_command->add_flag("--counts", explain_options.counts, "Print the table of counts; no picture");
 
   CorpusAddOptions corpus_options;
@@ -322,6 +335,7 @@ int run(int argc, char** argv) {
   add_command->add_option("--corpus", corpus_options.corpus, "Folder of cases/ and meshes/");
 
   try {
+    refuse_empty_values(app, argc, argv);
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return app.exit(error);

@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <sstream>
 
 namespace surefill::certify {
@@ -14,12 +17,79 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormatVersion = 2;
+constexpr int kFormatVersion = 3;
+constexpr std::uint64_t kMostShards = 100000;
+// Of anything that is counted: sums over all shards stay below 2^64.
+constexpr std::uint64_t kMostCounted = std::uint64_t{1} << 46;
+
+// FNV-1a of the members but "checksum" itself: it notices what was edited by hand or damaged on the way, and is no
+// signature.
+std::string checksum_of(Json json) {
+  json.erase("checksum");
+  std::uint64_t hash = 0xCBF29CE484222325u;
+  for (const char c : json.dump(-1, ' ', false, Json::error_handler_t::replace)) {
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001B3u;
+  }
+  return fmt::format("{:016x}", hash);
+}
+
+// The parts of a certificate are this many levels deep at most: a file of a million brackets is refused early.
+constexpr int kDeepest = 8;
+
+Json parse_certificate(const std::string& text) {
+  return Json::parse(text, [](int depth, Json::parse_event_t, Json&) {
+    if (depth > kDeepest) throw CertificateError("not a certificate: it is nested too deeply");
+    return true;
+  });
+}
+
+// Members of the type that is written, which json's own conversions do not insist on: they make -5 a large number.
+std::uint64_t count_of(const Json& json, const char* key, std::uint64_t most = kMostCounted) {
+  const Json& value = json.at(key);
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+    throw CertificateError(fmt::format("\"{}\" is no number from 0 to {}", key, most));
+  }
+  return value.get<std::uint64_t>();
+}
+
+double duration_of(const Json& json, const char* key) {
+  const Json& value = json.at(key);
+  if (!value.is_number() || !(value.get<double>() >= 0)) {
+    throw CertificateError(fmt::format("\"{}\" is no time", key));
+  }
+  return value.get<double>();
+}
+
+template <typename Value>
+std::vector<Value> numbers_of(const Json& json, const char* key, std::uint64_t most) {
+  std::vector<Value> values;
+  for (const Json& value : json.at(key)) {
+    if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
+      throw CertificateError(fmt::format("\"{}\" holds what is no number from 0 to {}", key, most));
+    }
+    values.push_back(static_cast<Value>(value.get<std::uint64_t>()));
+  }
+  return values;
+}
+
+// JSON has no infinities.
+Json json_of(double value) {
+  return std::isfinite(value) ? Json(value) : Json("infinite");
+}
+
+double error_of(const Json& json, const char* key) {
+  const Json& value = json.at(key);
+  if (value == "infinite") return HUGE_VAL;
+  if (!value.is_number() || !(value.get<double>() >= 0)) {
+    throw CertificateError(fmt::format("\"{}\" is no error", key));
+  }
+  return value.get<double>();
+}
 
 Json json_of(const Deviations& deviations) {
   Json json;
   const auto add = [&json](const char* name, const Deviation& deviation) {
-    if (deviation.ulp > 0) json[name] = {{"ulp", deviation.ulp}, {"granted", deviation.granted}};
+    if (deviation.ulp > 0) json[name] = {{"ulp", json_of(deviation.ulp)}, {"granted", json_of(deviation.granted)}};
   };
   add("depth", deviations.depth);
   add("barycentrics", deviations.barycentrics);
@@ -31,8 +101,8 @@ Deviations deviations_of(const Json& json) {
   Deviations deviations;
   const auto get = [&json](const char* name, Deviation& deviation) {
     if (!json.contains(name)) return;
-    deviation.ulp = json[name].value("ulp", 0.0);
-    deviation.granted = json[name].value("granted", 0.0);
+    deviation.ulp = error_of(json[name], "ulp");
+    deviation.granted = error_of(json[name], "granted");
   };
   get("depth", deviations.depth);
   get("barycentrics", deviations.barycentrics);
@@ -88,18 +158,18 @@ CheckResult result_of(const Json& check) {
   result.claim = check.at("claim");
   result.exhaustive = check.at("exhaustive");
   result.unit = check.at("unit");
-  result.cases = check.at("cases");
-  result.due = check.at("due");
-  result.done = check.at("done");
-  result.resume = check.at("resume");
-  result.skipped = check.at("skipped");
-  result.failed = check.at("failed");
-  result.samples = check.at("samples");
-  result.differences = check.at("differences");
-  result.seconds = check.at("seconds");
+  result.cases = count_of(check, "cases");
+  result.due = count_of(check, "due");
+  result.done = count_of(check, "done");
+  result.resume = count_of(check, "resume");
+  result.skipped = count_of(check, "skipped");
+  result.failed = count_of(check, "failed");
+  result.samples = count_of(check, "samples");
+  result.differences = count_of(check, "differences");
+  result.seconds = duration_of(check, "seconds");
   if (check.contains("largest_errors")) result.deviations = deviations_of(check["largest_errors"]);
   result.finding = check.value("finding", "");
-  result.case_number = check.value("case", std::uint64_t{0});
+  if (check.contains("case")) result.case_number = count_of(check, "case");
   result.shown = check.value("shown", "");
   result.scene = check.value("scene", "");
   result.replay = check.value("replay", "");
@@ -107,27 +177,59 @@ CheckResult result_of(const Json& check) {
   if (check.contains("evidence")) {
     const Json& from = check["evidence"];
     Evidence& evidence = result.evidence;
-    evidence.x0 = from.at("x0");
-    evidence.y0 = from.at("y0");
-    evidence.width = from.at("width");
-    evidence.height = from.at("height");
-    evidence.samples = from.at("samples");
+    const auto size_of = [&from](const char* key) {
+      return static_cast<int>(count_of(from, key, std::numeric_limits<int>::max()));
+    };
+    evidence.x0 = size_of("x0");
+    evidence.y0 = size_of("y0");
+    evidence.width = size_of("width");
+    evidence.height = size_of("height");
+    evidence.samples = size_of("samples");
     evidence.what = from.at("what");
-    evidence.expected = from.at("expected").get<std::vector<std::uint32_t>>();
-    evidence.actual = from.at("actual").get<std::vector<std::uint32_t>>();
-    evidence.differs = from.at("differs").get<std::vector<std::uint8_t>>();
-    const bool sizes = evidence.width >= 0 && evidence.height >= 0 && evidence.width <= kEvidenceSize &&
-                       evidence.height <= kEvidenceSize && evidence.samples >= 1 && evidence.samples <= 16;
+    evidence.expected = numbers_of<std::uint32_t>(from, "expected", 0xFFFFFFFFu);
+    evidence.actual = numbers_of<std::uint32_t>(from, "actual", 0xFFFFFFFFu);
+    evidence.differs = numbers_of<std::uint8_t>(from, "differs", 1);
+    const bool sizes = evidence.width <= kEvidenceSize && evidence.height <= kEvidenceSize && evidence.samples >= 1 &&
+                       evidence.samples <= 16;
     const auto total = static_cast<std::size_t>(sizes ? evidence.width * evidence.height * evidence.samples : 0);
     if (!sizes || evidence.expected.size() != total || evidence.differs.size() != total ||
         (!evidence.actual.empty() && evidence.actual.size() != total)) {
       throw CertificateError("evidence of another size than it says");
     }
   }
-  if (result.due > result.cases || result.done > result.due || result.resume > result.done) {
-    throw CertificateError("check " + result.name + " has done more cases than there are");
-  }
   return result;
+}
+
+// What holds of the counts of every check, however it ended.
+void check_counts(const CheckResult& result, const Shard& shard) {
+  const auto refuse = [&result](const char* what) { throw CertificateError("check " + result.name + ": " + what); };
+  if (result.due > result.cases || result.done > result.due || result.resume > result.done) {
+    refuse("it has done more cases than there are");
+  }
+  if (result.due != (result.cases + shard.count - shard.index) / shard.count) {
+    refuse("other cases are due than its shard has");
+  }
+  if (result.skipped > result.done || result.failed > result.done - result.skipped) {
+    refuse("more cases were skipped or failed than were done");
+  }
+  if ((result.failed == 0) != (result.differences == 0) || result.differences < result.failed) {
+    refuse("its differences do not fit the cases that failed");
+  }
+  if ((result.failed == 0) != result.finding.empty()) refuse("its finding does not fit the cases that failed");
+  if (result.failed > 0 && result.case_number >= result.cases) refuse("its finding is of a case that there is not");
+}
+
+// What holds of a certificate as a whole.
+void check_consistent(const Json& json, const Certificate& certificate) {
+  std::set<std::string> names;
+  for (const CheckResult& result : certificate.results) {
+    check_counts(result, certificate.facts.shard);
+    if (!names.insert(result.name).second) throw CertificateError("check " + result.name + " is there twice");
+  }
+  const std::string verdict = verdict_name(verdict_of(certificate.results, certificate.facts));
+  if (json.at("verdict") != verdict) {
+    throw CertificateError(fmt::format("its verdict is {}, its checks say {}", json["verdict"].dump(), verdict));
+  }
 }
 
 }  // namespace
@@ -139,6 +241,7 @@ std::string certificate_json(const Certificate& certificate) {
   json["format_version"] = kFormatVersion;
   json["verdict"] = verdict_name(verdict_of(certificate.results, facts));
   json["interrupted"] = facts.interrupted;
+  if (!facts.stopped.empty()) json["stopped"] = facts.stopped;
   json["version"] = facts.version;
   json["commit"] = facts.commit;
   json["compiler"] = facts.compiler;
@@ -165,19 +268,40 @@ std::string certificate_json(const Certificate& certificate) {
   json["limits"] = limits(facts);
   json["checks"] = Json::array();
   for (const CheckResult& result : certificate.results) json["checks"].push_back(json_of(result));
+  json["checksum"] = checksum_of(json);
   return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string with_checksum(const std::string& text) {
+  try {
+    Json json = parse_certificate(text);
+    if (!json.is_object()) return text;
+    json["checksum"] = checksum_of(json);
+    return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+  } catch (const CertificateError&) {
+    return text;
+  } catch (const nlohmann::json::exception&) {
+    return text;
+  }
 }
 
 Certificate read_certificate(const std::string& text, const std::string& file) {
   try {
-    const Json json = Json::parse(text);
+    const Json json = parse_certificate(text);
     if (!json.is_object() || json.value("format", "") != "surefill-certificate") {
       throw CertificateError("no certificate of surefill");
     }
-    if (json.at("format_version") != kFormatVersion) throw CertificateError("a certificate of another version");
+    if (json.at("format_version") != kFormatVersion) {
+      throw CertificateError(fmt::format("a certificate of another version: {}, where {} is read",
+                                         json["format_version"].dump(), kFormatVersion));
+    }
+    if (json.at("checksum") != checksum_of(json)) {
+      throw CertificateError("its checksum is not that of its content: it was edited or damaged");
+    }
     Certificate certificate;
     Facts& facts = certificate.facts;
     facts.interrupted = json.at("interrupted");
+    facts.stopped = json.value("stopped", "");
     facts.version = json.at("version");
     facts.commit = json.at("commit");
     facts.compiler = json.at("compiler");
@@ -185,11 +309,11 @@ Certificate read_certificate(const std::string& text, const std::string& file) {
     facts.cpu = json.at("cpu");
     facts.instruction_set = json.at("instruction_set");
     facts.level = json.at("level");
-    facts.seed = json.at("seed");
-    facts.jobs = json.at("jobs");
-    facts.seconds = json.at("seconds");
+    facts.seed = count_of(json, "seed", ~std::uint64_t{0});
+    facts.jobs = static_cast<int>(count_of(json, "jobs", 4096));
+    facts.seconds = duration_of(json, "seconds");
     if (json.contains("shard")) {
-      facts.shard = {json["shard"].at("index"), json["shard"].at("count")};
+      facts.shard = {count_of(json["shard"], "index", kMostShards), count_of(json["shard"], "count", kMostShards)};
       if (facts.shard.index < 1 || facts.shard.index > facts.shard.count) throw CertificateError("an impossible shard");
     }
     if (json.contains("rival")) {
@@ -202,6 +326,7 @@ Certificate read_certificate(const std::string& text, const std::string& file) {
       facts.problems = rival.at("problems").get<std::vector<std::string>>();
     }
     for (const Json& check : json.at("checks")) certificate.results.push_back(result_of(check));
+    check_consistent(json, certificate);
     return certificate;
   } catch (const CertificateError& error) {
     throw CertificateError(file + ": " + error.what());
@@ -260,6 +385,7 @@ Certificate merge(std::span<const Certificate> shards, std::span<const std::stri
   for (std::size_t n = 1; n < shards.size(); ++n) {
     whole.facts.seconds += shards[n].facts.seconds;
     whole.facts.interrupted = whole.facts.interrupted || shards[n].facts.interrupted;
+    if (whole.facts.stopped.empty()) whole.facts.stopped = shards[n].facts.stopped;
     if (whole.facts.cpu.find(shards[n].facts.cpu) == std::string::npos) whole.facts.cpu += "; " + shards[n].facts.cpu;
     for (std::size_t c = 0; c < whole.results.size(); ++c) {
       CheckResult& to = whole.results[c];

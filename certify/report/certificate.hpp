@@ -27,9 +27,13 @@ struct Certificate {
 // With a final newline.
 std::string certificate_json(const Certificate& certificate);
 
-// Reads what certificate_json writes. `file` is the name used in messages. Throws CertificateError.
+// Reads what certificate_json writes, and nothing that was edited: the checksum must be that of the content, counts,
+// findings and verdict must fit each other. `file` is the name used in messages. Throws CertificateError.
 Certificate read_certificate(const std::string& text, const std::string& file);
 Certificate read_certificate_file(const std::string& path);
+
+// The text with the checksum of its content, where it is JSON: what the checksum hides from a fuzzer.
+std::string with_checksum(const std::string& text);
 
 // Why the two are not of one run (another version, level, seed, rival, check, number of shards ...); empty if they are.
 // The shard itself may differ, and the machine.

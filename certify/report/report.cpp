@@ -157,8 +157,9 @@ std::string check_line(const CheckResult& result, std::uint64_t seed) {
 }
 
 Verdict verdict_of(std::span<const CheckResult> results, const Facts& facts) {
-  const bool failed = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.failed > 0; });
-  if (failed) return Verdict::not_certified;
+  const bool failed =
+      std::any_of(results.begin(), results.end(), [](const auto& r) { return r.failed > 0 || r.differences > 0; });
+  if (failed || !facts.stopped.empty()) return Verdict::not_certified;
   const bool complete = std::all_of(results.begin(), results.end(), [](const auto& r) { return r.complete(); });
   if (facts.interrupted || !complete) return Verdict::incomplete;
   const bool any = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.checked(); });
@@ -191,6 +192,9 @@ std::string verdict_block(std::span<const CheckResult> results, const Facts& fac
       block += fmt::format("INCOMPLETE: interrupted; {} of {} checks are complete, without a difference, {:.1f} s\n",
                            complete, results.size(), facts.seconds);
       break;
+  }
+  if (!facts.stopped.empty()) {
+    block += fmt::format("  stopped   {}; {} of {} checks are complete\n", facts.stopped, complete, results.size());
   }
   if (facts.interrupted && verdict == Verdict::not_certified) {
     block += fmt::format("  interrupted: {} of {} checks are complete\n", complete, results.size());

@@ -21,6 +21,7 @@ struct Facts {
   int jobs = 1;
   double seconds = 0;
   bool interrupted = false;
+  std::string stopped;  // why the run ended before its end; empty: it did not
   Shard shard;
   // Of a rival; empty where it is the engine that is certified.
   std::string rival, rival_version, declared_model, inferred_model, model;

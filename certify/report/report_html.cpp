@@ -370,6 +370,7 @@ std::string html_report(const Certificate& certificate) {
     fact("judged by", facts.model);
     for (const std::string& problem : facts.problems) fact("no model explains", problem);
   }
+  if (!facts.stopped.empty()) fact("stopped", facts.stopped);
   fact("means", meaning(facts));
   for (const std::string& limit : limits(facts)) fact("but", limit);
   fact("surefill", facts.version + ", commit " + facts.commit);

@@ -56,8 +56,9 @@ std::string junit_report(const Certificate& certificate) {
                            result.done, escaped(result.unit), result.case_number, escaped(result.finding),
                            escaped(result.replay), escaped(result.scene_text));
       } else if (skipped(result)) {
-        xml += result.complete() ? "      <skipped message=\"no case that applies\"/>\n"
-                                 : "      <skipped message=\"interrupted\"/>\n";
+        xml += fmt::format("      <skipped message=\"{}\"/>\n", result.complete() ? "no case that applies"
+                                                                : certificate.facts.stopped.empty() ? "interrupted"
+                                                                                                    : "stopped");
       }
       xml += "    </testcase>\n";
     }

@@ -154,7 +154,8 @@ void make_perspective_check(const Settings& settings, adapters::Rival& rival, Ch
   };
   check.still_fails = [&rival](const Scene& scene) {
     const bool plain = scene.samples == 1 && scene.draws.size() == 1 && scene.draws[0].vertices.size() >= 3;
-    return plain && !rival.given_up() && !crack_in(rival, scene).empty();
+    const adapters::Rival::Uncounted uncounted(rival);
+    return plain && rival.is_reducible() && !crack_in(rival, scene).empty();
   };
   check.describe = [&rival](const Scene& scene) { return crack_in(rival, scene); };
 }

@@ -44,17 +44,28 @@ int milliseconds_until(Clock::time_point time) {
   return static_cast<int>(std::clamp<long>(left, 0, 1000000));
 }
 
-// The last line that says something.
-std::string last_line(const std::string& text) {
-  const std::size_t end = text.find_last_not_of("\r\n\t ");
-  if (end == std::string::npos) return "";
-  const std::size_t begin = text.find_last_of('\n', end);
-  std::string line =
-      text.substr(begin == std::string::npos ? 0 : begin + 1, end - (begin == std::string::npos ? 0 : begin + 1) + 1);
-  for (char& c : line) {
-    if (static_cast<unsigned char>(c) < 32) c = ' ';
+// The last lines that say something, as one.
+std::string last_lines(const std::string& text) {
+  constexpr int kMostLines = 3;
+  constexpr const char* kBlank = " \t\r";
+  std::string result;
+  std::size_t end = text.size();
+  for (int lines = 0; lines < kMostLines && end != std::string::npos;) {
+    const std::size_t newline = end == 0 ? std::string::npos : text.find_last_of('\n', end - 1);
+    const std::size_t begin = newline == std::string::npos ? 0 : newline + 1;
+    std::string line = text.substr(begin, end - begin);
+    line.erase(0, std::min(line.find_first_not_of(kBlank), line.size()));
+    line.resize(line.find_last_not_of(kBlank) + 1);
+    for (char& c : line) {
+      if (static_cast<unsigned char>(c) < 32) c = ' ';
+    }
+    // Python marks the place in the line above by "^^^^".
+    if (line.find_first_not_of("^~ ") != std::string::npos) {
+      result = line + (lines++ == 0 ? "" : " | ") + result;
+    }
+    end = newline;
   }
-  return line;
+  return result;
 }
 
 }  // namespace
@@ -152,9 +163,9 @@ std::string Process::end_of_process() {
 std::string Process::fail(const std::string& what) {
   read_errors();
   kill_and_wait();
-  const std::string line = last_line(error_text_);
+  const std::string said = last_lines(error_text_);
   close_pipes();
-  return "the rasterizer " + what + (line.empty() ? "" : "; it said: " + line);
+  return "the rasterizer " + what + (said.empty() ? "" : "; it said: " + said);
 }
 
 Answer Process::ask(std::uint32_t kind, const Words& body, std::size_t most_words, std::chrono::milliseconds limit) {

@@ -15,19 +15,25 @@ namespace surefill::adapters {
 
 namespace {
 
-constexpr int kMostTimeOuts = 10;
+constexpr std::chrono::milliseconds kLeastOpeningTime{20000};
+constexpr int kMostDeaths = 10;          // of one that draws other scenes
+constexpr int kMostFirstFailures = 3;    // of one that has drawn nothing yet
 constexpr std::size_t kMostAlone = 200;  // triangles that are drawn alone to find counts
 
 std::string cause_of(const Answer& answer) {
-  const std::string text = text_of(answer.words);
-  return text.empty() ? "no reason given" : text;
+  std::string text = text_of(answer.words);
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 32) c = ' ';
+  }
+  const std::size_t begin = text.find_first_not_of(' ');
+  return begin == std::string::npos ? "it gives no reason" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
 }
 
 // Numbers that the header does not allow: a rival that says such things is not asked further.
 void check_info(const surefill_adapter_info& info) {
   const surefill_adapter_model& model = info.model;
   const auto refuse = [](const std::string& what) {
-    throw RivalFailure("the rasterizer describes itself wrongly: " + what);
+    throw RivalUnopened("the rasterizer describes itself wrongly: " + what);
   };
   if ((info.outputs & ~kAllOutputs) != 0) refuse("an output that there is not");
   if ((info.outputs & (SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH)) == 0) {
@@ -88,31 +94,82 @@ bool asks_for_nothing(const Target& target) {
 
 }  // namespace
 
-Rival::Rival(RivalOptions options) : options_(std::move(options)) {
-  auto process = std::make_unique<Process>(options_.command);
+namespace {
+
+// A process that was asked to open, and what it answered.
+struct Opened {
+  std::unique_ptr<Process> process;
+  Answer answer;
+  std::string failure;  // set: it cannot be used
+};
+
+Opened open_process(const RivalOptions& options) {
+  Opened opened;
   Words body{SUREFILL_ADAPTER_VERSION};
-  const Words arguments = text_words(options_.arguments);
+  const Words arguments = text_words(options.arguments);
   body.insert(body.end(), arguments.begin(), arguments.end());
-  // Starting an interpreter or a device takes longer than a scene.
-  const Answer answer = process->ask(kOpen, body, kInfoWords, options_.time_limit * 4);
-  if (!answer.failure.empty()) throw RivalFailure("on being opened, " + answer.failure);
-  if (answer.status == SUREFILL_ADAPTER_UNSUPPORTED) throw RivalSkips(cause_of(answer));
-  if (answer.status != SUREFILL_ADAPTER_OK) throw RivalFailure("the rasterizer cannot be opened: " + cause_of(answer));
-  if (answer.words.size() != kInfoWords) {
-    throw RivalFailure(
-        fmt::format("the rasterizer describes itself in {} words instead of {}", answer.words.size(), kInfoWords));
+  try {
+    opened.process = std::make_unique<Process>(options.command);
+  } catch (const std::runtime_error& error) {
+    opened.failure = error.what();
+    return opened;
   }
-  std::memcpy(&info_, answer.words.data(), sizeof info_);
+  // Starting an interpreter or a device takes longer than a scene, and on a busy machine much longer.
+  opened.answer = opened.process->ask(kOpen, body, kInfoWords, std::max(options.time_limit * 4, kLeastOpeningTime));
+  const Answer& answer = opened.answer;
+  if (!answer.failure.empty()) {
+    opened.failure = "on being opened, " + answer.failure;
+  } else if (answer.status != SUREFILL_ADAPTER_OK && answer.words == body) {
+    // A program that copies its input, such as cat: the request's kind, 1, reads as a status.
+    opened.failure = "on being opened, the rasterizer gave the request back: it does not speak the adapter's messages";
+  } else if (answer.status == SUREFILL_ADAPTER_UNSUPPORTED) {
+    opened.failure = cause_of(answer);
+  } else if (answer.status != SUREFILL_ADAPTER_OK) {
+    opened.failure = "the rasterizer cannot be opened: " + cause_of(answer);
+  }
+  return opened;
+}
+
+}  // namespace
+
+Rival::Rival(RivalOptions options) : options_(std::move(options)) {
+  Opened opened = open_process(options_);
+  if (!opened.failure.empty()) throw RivalUnopened(opened.failure);
+  const Words& words = opened.answer.words;
+  if (words.size() != kInfoWords) {
+    throw RivalUnopened(
+        fmt::format("the rasterizer describes itself in {} words instead of {}", words.size(), kInfoWords));
+  }
+  std::memcpy(&info_, words.data(), sizeof info_);
   check_info(info_);
   if (info_.model.y == SUREFILL_ADAPTER_Y_UNKNOWN) info_.model.y = SUREFILL_ADAPTER_Y_DOWN;
   if (info_.model.depth_range == SUREFILL_ADAPTER_DEPTH_RANGE_UNKNOWN) {
     info_.model.depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE;
   }
-  idle_.push_back(std::move(process));
+  idle_.push_back(std::move(opened.process));
 }
 
 bool Rival::given_up() const {
-  return timeouts_ >= kMostTimeOuts;
+  return deaths_ >= kMostDeaths || (drawn_ == 0 && failures_ >= kMostFirstFailures);
+}
+
+bool Rival::is_reducible() const {
+  return drawn_ > 0 && timeouts_ < kMostDeaths;
+}
+
+std::string Rival::why_given_up() const {
+  const std::lock_guard lock(mutex_);
+  return drawn_ == 0 ? fmt::format("it drew nothing in {} attempts: {}", failures_.load(), last_failure_)
+                     : fmt::format("it died on {} scenes, the last time so: {}", deaths_.load(), last_failure_);
+}
+
+void Rival::fail(const std::string& cause, bool died) {
+  if (const std::lock_guard lock(mutex_); uncounted_ == 0 && !given_up()) {
+    ++failures_;
+    if (died) ++deaths_;
+    last_failure_ = cause;
+  }
+  throw RivalFailure(cause);
 }
 
 std::unique_ptr<Process> Rival::take() {
@@ -124,20 +181,12 @@ std::unique_ptr<Process> Rival::take() {
       return process;
     }
   }
-  auto process = std::make_unique<Process>(options_.command);
-  Words body{SUREFILL_ADAPTER_VERSION};
-  const Words arguments = text_words(options_.arguments);
-  body.insert(body.end(), arguments.begin(), arguments.end());
-  const Answer answer = process->ask(kOpen, body, kInfoWords, options_.time_limit * 4);
-  if (!answer.failure.empty()) throw RivalFailure("on being opened again, " + answer.failure);
-  if (answer.status != SUREFILL_ADAPTER_OK) {
-    throw RivalFailure("the rasterizer cannot be opened again: " + cause_of(answer));
-  }
-  return process;
+  Opened opened = open_process(options_);
+  if (!opened.failure.empty()) fail("started again: " + opened.failure, true);
+  return std::move(opened.process);
 }
 
 void Rival::draw_once(Target target, std::span<const Draw> draws) {
-  if (given_up()) throw RivalSkips(fmt::format("{} scenes before this one had no answer in time", kMostTimeOuts));
   // Without draws there is no array that says how many components an attribute has; the empty image is +0 (V1).
   if (draws.empty()) {
     for (const AttributeTarget& attribute : target.attributes) {
@@ -158,16 +207,17 @@ void Rival::draw_once(Target target, std::span<const Draw> draws) {
   std::unique_ptr<Process> process = take();
   const Answer answer = process->ask(kDraw, scene_words(frame.scene(), frame.image()), due, options_.time_limit);
   if (answer.timed_out) ++timeouts_;
-  if (!answer.failure.empty()) throw RivalFailure(answer.failure);
+  if (!answer.failure.empty()) fail(answer.failure, true);
   {
     const std::lock_guard lock(mutex_);
     idle_.push_back(std::move(process));
   }
   if (answer.status == SUREFILL_ADAPTER_UNSUPPORTED) throw RivalSkips(cause_of(answer));
-  if (answer.status != SUREFILL_ADAPTER_OK) throw RivalFailure("the rasterizer failed: " + cause_of(answer));
+  if (answer.status != SUREFILL_ADAPTER_OK) fail("the rasterizer failed: " + cause_of(answer), false);
   if (answer.words.size() != due) {
-    throw RivalFailure(fmt::format("the rasterizer answered {} words where {} are due", answer.words.size(), due));
+    fail(fmt::format("the rasterizer answered {} words where {} are due", answer.words.size(), due), false);
   }
+  ++drawn_;
   const std::uint32_t* words = answer.words.data();
   for (const OutputBuffer& output : outputs) {
     std::memcpy(output.words, words, output.size * 4);

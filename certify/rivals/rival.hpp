@@ -27,6 +27,13 @@ class RivalFailure : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+// There is nothing to judge: it cannot be started or opened, or describes itself wrongly. what() is one line, never
+// without a cause.
+class RivalUnopened : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 // This frame is none for this rival: it lacks a feature, or says so. No finding.
 class RivalSkips : public std::runtime_error {
  public:
@@ -46,8 +53,7 @@ inline constexpr std::uint32_t kAllOutputs = SUREFILL_ADAPTER_COUNT | SUREFILL_A
 // Thread-safe, but for `set_model`: each thread that draws has a process of its own for as long as it does.
 class Rival {
  public:
-  // Starts a process and asks who it is. Throws RivalFailure, RivalSkips where it says that there is nothing to judge
-  // (a driver that is not there), and std::runtime_error where nothing can be started.
+  // Starts a process and asks who it is. Throws RivalUnopened.
   explicit Rival(RivalOptions options);
   Rival(const Rival&) = delete;
   Rival& operator=(const Rival&) = delete;
@@ -60,19 +66,42 @@ class Rival {
   // RivalSkips.
   void draw(const Target& target, std::span<const Draw> draws);
 
-  // After a few scenes without an answer in time, no more time is spent: every draw is skipped at once.
+  // It died (exited, crashed, hung, spoke nonsense) on several scenes, or never drew one: a caller who goes on starts
+  // it again for each scene, and learns nothing new. why_given_up() says what came of the last.
   bool given_up() const;
+  std::string why_given_up() const;
+  // It has drawn something.
+  bool has_drawn() const { return drawn_ > 0; }
+  // A scene that kills it can be made smaller: some scenes do not, and it does not take its time each time.
+  bool is_reducible() const;
+
+  // While one lives, deaths are not counted: for whoever makes such a scene smaller.
+  class Uncounted {
+   public:
+    explicit Uncounted(Rival& rival) : rival_(rival) { ++rival_.uncounted_; }
+    ~Uncounted() { --rival_.uncounted_; }
+    Uncounted(const Uncounted&) = delete;
+    Uncounted& operator=(const Uncounted&) = delete;
+
+   private:
+    Rival& rival_;
+  };
 
  private:
   std::unique_ptr<Process> take();
+  [[noreturn]] void fail(const std::string& cause, bool died);
   void draw_once(Target target, std::span<const Draw> draws);
   void add_up_counts(const Target& target, std::span<const Draw> draws);
 
   RivalOptions options_;
   surefill_adapter_info info_{};
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Process>> idle_;
-  std::atomic<int> timeouts_ = 0;
+  std::string last_failure_;
+  std::atomic<int> deaths_ = 0, failures_ = 0;  // a death is a failure, too
+  std::atomic<int> timeouts_ = 0;               // all of them
+  std::atomic<int> uncounted_ = 0;
+  std::atomic<std::uint64_t> drawn_ = 0;
 };
 
 // The rival as a renderer. Outputs that it lacks, or that are not among `judged`, are the oracle's under the rival's

@@ -69,24 +69,28 @@ CaseResult result_of(const properties::Verdict& verdict) {
   return result;
 }
 
+// The rival's frames that a property judges; what its profile leaves open is skipped.
+properties::Renderer judged_renderer(Rival& rival) {
+  const bool exact = exact_profile(rival);
+  const std::uint32_t judged = exact ? adapters::kAllOutputs : static_cast<std::uint32_t>(SUREFILL_ADAPTER_COUNT);
+  return [&rival, exact, renderer = adapters::rival_renderer(rival, judged)](const Target& target,
+                                                                             std::span<const Draw> draws) {
+    // How precise depth is at the planes of depth clipping is open, too.
+    const bool clips =
+        std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.depth_mode == DepthMode::clip; });
+    if (!exact && (clips || leaves_open(draws) || out_of_range(draws) ||
+                   !projects_clearly(adapters::under_model(draws, rival.info())))) {
+      throw adapters::RivalSkips("open in its profile");
+    }
+    return renderer(target, draws);
+  };
+}
+
 // A property on one case. It is owed where the oracle has it under the rival's model: a mesh, say, that still tiles
 // when it is snapped.
 CaseResult property_case(const properties::Property& property, const Scene& scene, Rival& rival) {
-  const bool exact = exact_profile(rival);
   return rival_case(scene, [&] {
-    const std::uint32_t judged = exact ? adapters::kAllOutputs : static_cast<std::uint32_t>(SUREFILL_ADAPTER_COUNT);
-    const properties::Renderer renderer = adapters::rival_renderer(rival, judged);
-    const auto judged_frames = [&](const Target& target, std::span<const Draw> draws) {
-      // How precise depth is at the planes of depth clipping is open, too.
-      const bool clips =
-          std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.depth_mode == DepthMode::clip; });
-      if (!exact && (clips || leaves_open(draws) || out_of_range(draws) ||
-                     !projects_clearly(adapters::under_model(draws, rival.info())))) {
-        throw adapters::RivalSkips("open in its profile");
-      }
-      return renderer(target, draws);
-    };
-    CaseResult result = result_of(property.decide(scene, judged_frames));
+    CaseResult result = result_of(property.decide(scene, judged_renderer(rival)));
     if (result.differences > 0 && property.decide(scene, adapters::model_renderer(rival)).differences > 0) {
       return skipped_case();
     }
@@ -106,7 +110,13 @@ CaseResult alone_case(const Scene& original, Rival& rival) {
   if (!exact_profile(rival) && out_of_range(plain.draws())) return skipped_case();
   return rival_case(scene, [&] {
     CaseResult result;
+    properties::Exhibit exhibit{scene.width, scene.height, scene.samples, "", {}, {}, {}};
+    const auto mark = [&exhibit](const char* output, std::size_t sample) {
+      if (exhibit.output.empty()) exhibit.output = output;
+      if (exhibit.output == output) exhibit.differs[sample] = 1;
+    };
     const auto differs = [&](const std::string& what, std::size_t sample, std::uint32_t triangle) {
+      mark("values", sample);
       if (result.differences++ > 0) return;
       const auto pixel = sample / static_cast<std::size_t>(scene.samples);
       const auto width = static_cast<std::size_t>(scene.width);
@@ -138,11 +148,14 @@ CaseResult alone_case(const Scene& original, Rival& rival) {
       alone.push_back(draw(one));
     }
     result.samples = whole.count.size();
+    exhibit.actual = whole.count;
+    exhibit.differs.assign(whole.count.size(), 0);
     for (std::size_t s = 0; s < whole.count.size(); ++s) {
       bool repeated = whole.count[s] == again.count[s];
       if (!whole.index.empty()) repeated = repeated && whole.index[s] == again.index[s];
       if (!whole.depth.empty()) repeated = repeated && same_bits(whole.depth[s], again.depth[s]);
       if (!repeated && result.differences++ == 0) result.finding = "drawn twice, the image is not the same";
+      if (!repeated) mark("values", s);
       std::uint32_t covers = 0;
       std::size_t nearest = alone.size();
       for (std::size_t t = 0; t < alone.size(); ++t) {
@@ -156,7 +169,9 @@ CaseResult alone_case(const Scene& original, Rival& rival) {
         const bool nearer = scene.depth_test == DepthTest::less ? a < b : a > b;
         if (nearer || (a == b && identifiers[t] < identifiers[nearest])) nearest = t;
       }
+      exhibit.expected.push_back(covers);
       if (covers != whole.count[s]) {
+        mark("count", s);
         if (result.differences++ == 0) {
           result.finding =
               fmt::format("count at sample {}: {} triangles cover it when each is drawn alone, {} together", s, covers,
@@ -186,6 +201,7 @@ CaseResult alone_case(const Scene& original, Rival& rival) {
         }
       }
     }
+    if (result.differences > 0) result.exhibit = std::move(exhibit);
     return result;
   });
 }
@@ -262,6 +278,15 @@ bool pixels_high(const Scene& scene) {
   });
 }
 
+// A scene that kills the rival is made smaller, too, and then deaths do not count; but not where every scene kills it.
+template <typename Fails>
+std::function<bool(const Scene&)> reducible(Rival& rival, const Fails& fails) {
+  return [&rival, fails](const Scene& scene) {
+    const Rival::Uncounted uncounted(rival);
+    return rival.is_reducible() && fails(scene);
+  };
+}
+
 class List {
  public:
   List(const Settings& settings, const RivalSubject& subject) : settings_(settings), subject_(subject) {}
@@ -275,6 +300,7 @@ class List {
     check.prepare = [cases] { return cases; };
     check.replay_option = subject_.replay_option;
     Rival& rival = *subject_.rival;
+    check.stopped = [&rival] { return rival.given_up() ? rival.why_given_up() : std::string(); };
     check.describe = [&rival](const Scene& scene) { return compare_rival(scene, rival).finding; };
     check.expected = adapters::model_renderer(rival);
     check.actual = adapters::rival_renderer(rival);
@@ -290,9 +316,8 @@ class List {
     check.run = [this_seed = settings_.seed, &rival, decide, name](std::uint64_t number) {
       return decide(scene_for(rival, number, case_seed(this_seed, name, number)), rival);
     };
-    check.still_fails = [&rival, decide](const Scene& scene) {
-      return !rival.given_up() && decide(scene, rival).differences > 0;
-    };
+    check.still_fails =
+        reducible(rival, [&rival, decide](const Scene& scene) { return decide(scene, rival).differences > 0; });
     check.describe = [&rival, decide](const Scene& scene) { return decide(scene, rival).finding; };
   }
 
@@ -322,13 +347,17 @@ class List {
         judgement.certain_only = !known_model(rival);
         return compare_rival(scene, rival, judgement);
       };
-      check.still_fails = [&property, &rival, simplifies, compare](const Scene& scene) {
-        if (rival.given_up()) return false;
+      check.still_fails = reducible(rival, [&property, &rival, simplifies, compare](const Scene& scene) {
         return (simplifies ? property_case(property, scene, rival) : compare(scene)).differences > 0;
-      };
+      });
       check.describe = [&property, &rival, simplifies, compare](const Scene& scene) {
         return (simplifies ? property_case(property, scene, rival) : compare(scene)).finding;
       };
+      if (simplifies) {
+        check.exhibit = [&property, &rival](const Scene& scene) {
+          return properties::exhibit_of(property, scene, judged_renderer(rival));
+        };
+      }
     }
     if (!subject_.slow) {
       Check& check = add(kInvariants, "mesh-perspective", "T1", "", 0);
@@ -343,6 +372,7 @@ class List {
     add_random(kInvariants, "alone", "T5, V1",
                "an image is what its triangles drawn alone make of it, to the bit, and the same when drawn again",
                cases() * 2, alone_case);
+    checks_.back().exhibit = [&rival](const Scene& scene) { return alone_case(scene, rival).exhibit; };
     const std::string granted = adapters::profile_name(rival.info().model.profile);
     add_values("values",
                "where one triangle is visible, its index, depth and attributes are within what the profile " + granted +
@@ -447,9 +477,8 @@ class List {
       if (result.differences > 0) result.finding = name + ": " + result.finding;
       return result;
     };
-    check.still_fails = [equal, &rival](const Scene& scene) {
-      return !rival.given_up() && equal(scene, rival).differences > 0;
-    };
+    check.still_fails =
+        reducible(rival, [equal, &rival](const Scene& scene) { return equal(scene, rival).differences > 0; });
     add_random(kExactModel, "model-random", "all rules", std::string(claim) + ", on hard triangles of all kinds",
                cases() * 16, equal);
     for (const properties::Property& property : properties::all_properties()) {
@@ -462,9 +491,8 @@ class List {
                    all = world.exhaustive](std::uint64_t number) {
         return equal(property.make(all ? number : case_seed(seed, name, number) % property.exhaustive), rival);
       };
-      world.still_fails = [equal, &rival](const Scene& scene) {
-        return !rival.given_up() && equal(scene, rival).differences > 0;
-      };
+      world.still_fails =
+          reducible(rival, [equal, &rival](const Scene& scene) { return equal(scene, rival).differences > 0; });
     }
   }
 
@@ -478,15 +506,44 @@ class List {
 
 }  // namespace
 
+namespace {
+
+// The least that can be asked for: one triangle on the screen.
+bool draws_one_triangle(Rival& rival) {
+  Scene scene;
+  scene.width = scene.height = 4;
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  draw.vertices = {{0.25f, 0.25f, 0.5f, 1, {}}, {3.75f, 0.25f, 0.5f, 1, {}}, {0.25f, 3.75f, 0.5f, 1, {}}};
+  draw.triangles.push_back({{0, 1, 2}, std::nullopt});
+  corpus::Frame frame(scene, {true, false, false, false, false});
+  try {
+    rival.draw(frame.target(), frame.draws());
+    return true;
+  } catch (const adapters::RivalFailure&) {
+    return false;
+  }
+}
+
+}  // namespace
+
 RivalSubject meet_rival(Rival& rival) {
   RivalSubject subject;
   subject.rival = &rival;
   subject.declared = known_model(rival);
   if (!subject.declared) subject.reported_bits = rival.info().model.grid_bits;
   try {
-    subject.inference = adapters::infer_model(rival);
+    // One that dies on the first probe is asked for less, and once more: if it draws nothing, there is nothing to
+    // judge.
+    for (bool probed = false; !probed;) {
+      try {
+        subject.inference = adapters::infer_model(rival);
+        probed = true;
+      } catch (const adapters::RivalFailure&) {
+        if (rival.has_drawn() || rival.given_up() || draws_one_triangle(rival)) throw;
+      }
+    }
   } catch (const adapters::RivalFailure& failure) {
-    // The checks go on: they have the scenes that show it.
+    // The checks go on where it has drawn something: they have the scenes that show it.
     subject.inference.model = rival.info().model;
     subject.inference.problems = {std::string("when probed, ") + failure.what()};
   } catch (const adapters::RivalSkips& lacking) {

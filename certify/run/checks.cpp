@@ -148,6 +148,12 @@ void add_property_checks(const Settings& settings, std::vector<Check>& checks) {
       check.still_fails = [&settings, &property](const Scene& scene) {
         return valid(scene) && property.decide(scene, settings.engine).differences > 0;
       };
+      check.describe = [&settings, &property](const Scene& scene) {
+        return valid(scene) ? property.decide(scene, settings.engine).finding : std::string();
+      };
+      check.exhibit = [&settings, &property](const Scene& scene) {
+        return properties::exhibit_of(property, scene, settings.engine);
+      };
     } else {
       check.still_fails = still_differs(properties::oracle_renderer(), settings.engine);
     }

@@ -15,10 +15,15 @@
 #include "certify/run/judge.hpp"
 #include "corpus/scene.hpp"
 #include "properties/machinery/compare.hpp"
+#include "properties/machinery/properties.hpp"
 
 namespace surefill::certify {
 
 enum class Level { quick, standard, thorough };
+
+inline const char* level_name(Level level) {
+  return level == Level::quick ? "quick" : level == Level::standard ? "standard" : "thorough";
+}
 
 struct Settings {
   Level level = Level::quick;
@@ -48,10 +53,11 @@ struct Deviations {
 struct CaseResult {
   std::uint64_t samples = 0;
   std::uint64_t differences = 0;
-  bool skipped = false;                // the engine lacks a mode that the case needs
-  Deviations deviations;               // of a rival whose profile is not exact
-  std::string finding;                 // one line, where it differs
-  std::optional<corpus::Scene> scene;  // that shows it, where there is one
+  bool skipped = false;                        // the engine lacks a mode that the case needs
+  Deviations deviations;                       // of a rival whose profile is not exact
+  std::string finding;                         // one line, where it differs
+  std::optional<corpus::Scene> scene;          // that shows it, where there is one
+  std::optional<properties::Exhibit> exhibit;  // its picture, where the two images of the scene are none
 };
 
 // A check is a number of cases, each a function of its number and the seed alone, so they may run in any order and at
@@ -71,6 +77,10 @@ struct Check {
   std::string group;          // the verdict that it belongs to, where there are several
   // The first difference on a scene in words; empty: as `judge` has it.
   std::function<std::string(const corpus::Scene&)> describe;
+  // Not empty: the run ends here, and this is why. Asked after each case.
+  std::function<std::string()> stopped;
+  // The picture that a finding on a scene has; empty, or none: the two images of that scene.
+  std::function<std::optional<properties::Exhibit>(const corpus::Scene&)> exhibit;
   // Who is held against whom, for pictures of a finding.
   properties::Renderer expected, actual;
 };

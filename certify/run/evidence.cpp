@@ -71,24 +71,33 @@ Evidence gather_evidence(const corpus::Scene& scene, const properties::Renderer&
       evidence.what = "values";
     }
   }
-  const auto samples = static_cast<std::size_t>(scene.samples), width = static_cast<std::size_t>(scene.width);
-  const auto first = std::find(marks.begin(), marks.end(), 1);
-  const std::size_t pixel = first == marks.end() ? 0 : static_cast<std::size_t>(first - marks.begin()) / samples;
+  properties::Exhibit exhibit{scene.width, scene.height, scene.samples, evidence.what, wanted.image().count, {}, marks};
+  if (answered) exhibit.actual = got.image().count;
+  return evidence_of(exhibit);
+}
+
+Evidence evidence_of(const properties::Exhibit& exhibit) {
+  Evidence evidence;
+  evidence.what = exhibit.output;
+  const auto samples = static_cast<std::size_t>(exhibit.samples), width = static_cast<std::size_t>(exhibit.width);
+  const auto first = std::find(exhibit.differs.begin(), exhibit.differs.end(), 1);
+  const std::size_t pixel =
+      first == exhibit.differs.end() ? 0 : static_cast<std::size_t>(first - exhibit.differs.begin()) / samples;
   const auto begin = [](int centre, int size) {
     return std::clamp(centre - kEvidenceSize / 2, 0, std::max(0, size - kEvidenceSize));
   };
-  evidence.samples = scene.samples;
-  evidence.width = std::min(scene.width, kEvidenceSize);
-  evidence.height = std::min(scene.height, kEvidenceSize);
-  evidence.x0 = begin(static_cast<int>(pixel % width), scene.width);
-  evidence.y0 = begin(static_cast<int>(pixel / width), scene.height);
+  evidence.samples = exhibit.samples;
+  evidence.width = std::min(exhibit.width, kEvidenceSize);
+  evidence.height = std::min(exhibit.height, kEvidenceSize);
+  evidence.x0 = begin(static_cast<int>(pixel % width), exhibit.width);
+  evidence.y0 = begin(static_cast<int>(pixel / width), exhibit.height);
   for (int y = evidence.y0; y < evidence.y0 + evidence.height; ++y) {
     for (int x = evidence.x0; x < evidence.x0 + evidence.width; ++x) {
       for (std::size_t n = 0; n < samples; ++n) {
         const std::size_t s = (static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x)) * samples + n;
-        evidence.expected.push_back(wanted.image().count[s]);
-        if (answered) evidence.actual.push_back(got.image().count[s]);
-        evidence.differs.push_back(marks[s]);
+        evidence.expected.push_back(exhibit.expected[s]);
+        if (!exhibit.actual.empty()) evidence.actual.push_back(exhibit.actual[s]);
+        evidence.differs.push_back(exhibit.differs[s]);
       }
     }
   }

@@ -10,6 +10,7 @@
 
 #include "corpus/scene.hpp"
 #include "properties/machinery/compare.hpp"
+#include "properties/machinery/properties.hpp"
 
 namespace surefill::certify {
 
@@ -27,6 +28,9 @@ inline constexpr int kEvidenceSize = 48;  // pixels of a window each way, at mos
 // least half the largest error are marked.
 Evidence gather_evidence(const corpus::Scene& scene, const properties::Renderer& expected,
                          const properties::Renderer& actual);
+
+// The window of a picture that the finding itself has, around its first difference.
+Evidence evidence_of(const properties::Exhibit& exhibit);
 
 }  // namespace surefill::certify
 

@@ -5,6 +5,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <cstdlib>
 #include <filesystem>
@@ -33,6 +35,32 @@ bool is_special(const std::string& path) {
   return fs::exists(status) && !fs::is_regular_file(status);
 }
 
+bool is_link(const std::string& path) {
+  std::error_code error;
+  return fs::is_symlink(path, error);
+}
+
+// The file that a path means: absolute, without ".", ".." and links, whether it is there or not. A path that cannot be
+// followed is given back as it is.
+fs::path resolved(const std::string& path) {
+  constexpr int kMostLinks = 40;  // as many as Linux follows
+  std::error_code error;
+  fs::path at = fs::absolute(path, error);
+  // A link to a file that is not there yet is not followed by weakly_canonical.
+  for (int n = 0; n < kMostLinks && fs::is_symlink(at, error); ++n) {
+    const fs::path to = fs::read_symlink(at, error);
+    if (error) return path;
+    at = at.parent_path() / to;
+  }
+  fs::path result = fs::weakly_canonical(at, error);
+  return error ? fs::path(path) : result;
+}
+
+bool same_file(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return resolved(a) == resolved(b) || fs::equivalent(a, b, error);
+}
+
 // Writes all bytes; the error number or 0.
 int write_all(int descriptor, std::string_view bytes) {
   while (!bytes.empty()) {
@@ -53,6 +81,41 @@ void check_folder(const std::string& path) {
   if (::access(path.c_str(), W_OK | X_OK) != 0) fail(path, errno);
 }
 
+bool has_ending(const std::string& path, std::string_view ending) {
+  std::string lower = path;
+  std::transform(lower.begin(), lower.end(), lower.begin(), [](unsigned char c) { return std::tolower(c); });
+  return lower.size() > ending.size() && lower.ends_with(ending);
+}
+
+void check_outputs(std::span<const OutputFile> outputs, std::span<const std::string> inputs) {
+  for (std::size_t n = 0; n < outputs.size(); ++n) {
+    const OutputFile& output = outputs[n];
+    if (output.path.empty()) continue;
+    const std::string named = output.option + " " + output.path;
+    if (output.path == "-") throw FileError(named + ": names no file; standard output is /dev/stdout");
+    check_writable(output.path);
+    if (is_special(output.path)) continue;
+    const std::vector<std::string>& endings = output.endings;
+    if (!endings.empty() && std::none_of(endings.begin(), endings.end(), [&output](const std::string& ending) {
+          return has_ending(output.path, ending);
+        })) {
+      std::string all;
+      for (const std::string& ending : endings) all += (all.empty() ? "" : " or ") + ending;
+      throw FileError(named + ": expected a name that ends in " + all);
+    }
+    for (const std::string& input : inputs) {
+      if (!input.empty() && same_file(output.path, input)) {
+        throw FileError(named + ": is the input " + input + ", which would be overwritten");
+      }
+    }
+    for (std::size_t m = 0; m < n; ++m) {
+      if (!outputs[m].path.empty() && same_file(output.path, outputs[m].path)) {
+        throw FileError(named + ": is the file of " + outputs[m].option + ", too");
+      }
+    }
+  }
+}
+
 void check_writable(const std::string& path) {
   if (path.empty()) throw FileError("an output file needs a name");
   std::error_code error;
@@ -61,7 +124,7 @@ void check_writable(const std::string& path) {
     if (::access(path.c_str(), W_OK) != 0) fail(path, errno);
     return;
   }
-  const fs::path folder = folder_of(path);
+  const fs::path folder = folder_of(is_link(path) ? resolved(path).string() : path);
   if (!fs::exists(folder, error)) fail(path, ENOENT);
   if (!fs::is_directory(folder, error)) fail(path, ENOTDIR);
   if (::access(folder.c_str(), W_OK | X_OK) != 0) fail(path, errno);
@@ -76,7 +139,8 @@ void write_file(const std::string& path, std::string_view bytes) {
     if (::close(descriptor) != 0 || error != 0) fail(path, error != 0 ? error : errno);
     return;
   }
-  std::string temporary = path + ".XXXXXX";
+  const std::string place = is_link(path) ? resolved(path).string() : path;
+  std::string temporary = place + ".XXXXXX";
   const int descriptor = ::mkostemp(temporary.data(), O_CLOEXEC);
   if (descriptor < 0) fail(path, errno);
   int error = write_all(descriptor, bytes);
@@ -84,7 +148,7 @@ void write_file(const std::string& path, std::string_view bytes) {
   ::umask(mask);
   if (error == 0 && ::fchmod(descriptor, 0666 & ~mask) != 0) error = errno;
   if (::close(descriptor) != 0 && error == 0) error = errno;
-  if (error == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) error = errno;
+  if (error == 0 && ::rename(temporary.c_str(), place.c_str()) != 0) error = errno;
   if (error != 0) {
     ::unlink(temporary.c_str());
     fail(path, error);

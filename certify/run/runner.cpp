@@ -66,9 +66,15 @@ struct Tally {
   }
 };
 
+bool is_stopped(const Check& check) {
+  return check.stopped && !check.stopped().empty();
+}
+
 CaseResult guarded(const Check& check, std::uint64_t number) {
   try {
-    return check.run(number);
+    CaseResult result = check.run(number);
+    if (result.differences > 0 && result.finding.empty()) result.finding = "what differs has no words";
+    return result;
   } catch (const std::exception& error) {
     CaseResult result;
     result.differences = 1;
@@ -91,10 +97,11 @@ Tally run_cases(const Check& check, std::uint64_t first, std::uint64_t last, con
   Tally total;
   const auto work = [&] {
     Tally own;
-    while (!interrupted()) {
+    const auto goes_on = [&check] { return !interrupted() && !is_stopped(check); };
+    while (goes_on()) {
       const std::uint64_t begin = next.fetch_add(chunk);
       if (begin >= last) break;
-      for (std::uint64_t n = begin; n < std::min(begin + chunk, last) && !interrupted(); ++n) {
+      for (std::uint64_t n = begin; n < std::min(begin + chunk, last) && goes_on(); ++n) {
         const std::uint64_t number = n * options.shard.count + options.shard.index - 1;
         own.add(number, guarded(check, number));
         done.fetch_add(1, std::memory_order_relaxed);
@@ -154,7 +161,13 @@ void keep_finding(const Settings& settings, const Check& check, const std::strin
                        : std::string("as it was found.");
   result.shown = difference_in(settings, check, scene);
   if (!result.shown.empty()) comment += "\nIn this scene: " + result.shown;
-  if (valid(scene)) result.evidence = gather_evidence(scene, check.expected, check.actual);
+  bool in_scene = true;  // the two images of the scene differ
+  if (valid(scene)) {
+    result.evidence = gather_evidence(scene, check.expected, check.actual);
+    in_scene = !result.evidence.what.empty() || result.evidence.actual.empty();
+    const std::optional<properties::Exhibit> exhibit = check.exhibit ? check.exhibit(scene) : std::nullopt;
+    if (exhibit) result.evidence = evidence_of(*exhibit);
+  }
   scene.comment = comment;
   result.scene_text = corpus::write_scene(scene);
   result.scene = reserve_path(directory, stem_of(check.name), ".scene");
@@ -165,8 +178,11 @@ void keep_finding(const Settings& settings, const Check& check, const std::strin
     std::filesystem::remove(result.scene, error);
     throw;
   }
-  result.replay =
-      "surefill replay " + (check.replay_option.empty() ? "" : check.replay_option + " ") + shell_word(result.scene);
+  const std::string options = check.replay_option.empty() ? "" : check.replay_option + " ";
+  // Where a claim relates several scenes, both answers to this one may be equal: then the check itself shows it.
+  result.replay = in_scene ? "surefill replay " + options + shell_word(result.scene)
+                           : fmt::format("surefill certify {}--only {} --level {} --seed {}", options,
+                                         shell_word(check.name), level_name(settings.level), settings.seed);
 }
 
 void add_tally(Tally&& tally, CheckResult& result) {
@@ -222,14 +238,16 @@ std::vector<CheckResult> run_checks(const Settings& settings, std::vector<Check>
     const Clock::time_point start = Clock::now();
     const auto block =
         static_cast<std::uint64_t>(kBlockSeconds / check.cost) * static_cast<std::uint64_t>(options.jobs) + 1;
-    while (result.resume < result.due && !interrupted()) {
+    bool stopped = false;
+    while (result.resume < result.due && !interrupted() && !stopped) {
       const std::uint64_t end = std::min(result.due, result.resume + block);
       Tally tally = run_cases(check, result.resume, end, options, [&](std::uint64_t done) {
         progress.show(fmt::format("{} ({} of {} checks)", result.name, i + 1, checks.size()),
                       cost + check.cost * static_cast<double>(result.resume + done), total_cost);
       });
       result.seconds = spent + seconds_since(start);
-      if (interrupted() && result.resume + tally.done < end) {
+      stopped = is_stopped(check);
+      if (result.resume + tally.done < end) {
         save(true);  // without the block that was not finished
         add_tally(std::move(tally), result);
         break;
@@ -247,6 +265,7 @@ std::vector<CheckResult> run_checks(const Settings& settings, std::vector<Check>
     progress.clear();
     if (result.complete()) save(true);
     finished(result);
+    if (stopped) break;
   }
   return results;
 }

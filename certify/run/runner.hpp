@@ -57,7 +57,8 @@ struct RunOptions {
 // Prepares all checks first (throws SceneError, MeshError), then runs them in order. `finished` gets each result as
 // soon as it is there. `saved` gets all results now and then, such that a run that is given them as `before` goes on
 // from there; `before` is empty or has a result for each check, by name. Ends early, with incomplete results for the
-// rest, when interrupted(). Throws FileError where a reduced scene cannot be written.
+// rest, when interrupted(), and where a check says that the run is stopped. Throws FileError where a reduced scene
+// cannot be written.
 std::vector<CheckResult> run_checks(const Settings& settings, std::vector<Check>& checks, const RunOptions& options,
                                     const std::function<void(const CheckResult&)>& finished,
                                     std::span<const CheckResult> before = {},

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -30,12 +31,17 @@ class Command : public InFolder {
     std::ofstream(path(name), std::ios::binary) << text;
   }
 
+  // "zoo" is a command of its own, with the same manners.
+  static std::string command_of(const std::string& arguments) {
+    return arguments.starts_with("zoo ") ? SUREFILL_ZOO_COMMAND + arguments.substr(3)
+                                         : SUREFILL_COMMAND " " + arguments;
+  }
+
   // Runs the command in the folder, with arguments as a shell takes them.
   Outcome run(const std::string& arguments) const {
     // Beside the folder, so that what the command leaves in it can be listed.
     const std::string out = folder_.string() + ".out", err = folder_.string() + ".err";
-    const std::string line =
-        "cd '" + folder_.string() + "' && " SUREFILL_COMMAND " " + arguments + " >" + out + " 2>" + err;
+    const std::string line = "cd '" + folder_.string() + "' && " + command_of(arguments) + " >" + out + " 2>" + err;
     const int status = std::system(line.c_str());
     Outcome outcome;
     outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
@@ -59,13 +65,17 @@ class Command : public InFolder {
     const Outcome outcome = run(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments;
     EXPECT_EQ(outcome.out, "") << arguments;
-    EXPECT_EQ(outcome.err.rfind("surefill: ", 0), 0u) << arguments << "\n" << outcome.err;
+    EXPECT_EQ(outcome.err.rfind(arguments.starts_with("zoo ") ? "surefill-zoo: " : "surefill: ", 0), 0u)
+        << arguments << "\n"
+        << outcome.err;
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << arguments << "\n" << outcome.err;
     EXPECT_NE(outcome.err.find(cause), std::string::npos) << arguments << "\n" << outcome.err;
     EXPECT_EQ(files(), before) << arguments;
   }
 };
 
+constexpr const char* kOneTriangle =
+    "surefill-scene 1\ntarget 4 4\ndraw\nvertex 0 0 0 1\nvertex 4 0 0 1\nvertex 0 4 0 1\ntriangle 0 1 2\nend\n";
 constexpr const char* kTriangle = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
 bool is_png(const std::string& bytes) {
@@ -99,6 +109,135 @@ TEST_F(Command, RefusesWrongUsage) {
   expect_refused("certify --seed x", "seed");
 }
 
+// Every option of every subcommand, as its help lists them: a new one is tested as soon as it is there.
+TEST_F(Command, RefusesEmptyValues) {
+  int options = 0;
+  for (const std::string subcommand :
+       {"render", "certify", "merge", "replay", "reduce", "explain", "corpus add", "zoo"}) {
+    std::istringstream help(run(subcommand + " --help").out);
+    for (std::string line; std::getline(help, line);) {
+      // "  -o,--output TEXT REQUIRED", and flags without a value.
+      const std::size_t name = line.find("--");
+      if (name == std::string::npos || (line.substr(0, name) != "  " && line.substr(0, name) != "  -o,")) continue;
+      const std::size_t end = line.find(' ', name);
+      if (end == std::string::npos || !std::isupper(static_cast<unsigned char>(line[end + 1]))) continue;
+      const std::string option = line.substr(name, end - name);
+      expect_refused(subcommand + " a " + option + " ''", option + ": an empty value");
+      if (options++ % 8 == 0) expect_refused(subcommand + " a " + option + "=", option + ": an empty value");
+    }
+    if (subcommand != "certify" && subcommand != "zoo") expect_refused(subcommand + " ''", "an empty value");
+  }
+  EXPECT_GE(options, 50);
+  expect_refused("render a.obj -o ''", "--output: an empty value");
+  expect_refused("certify --only ,", "an empty name");
+  expect_refused("certify --only corpus,,order", "an empty name");
+  expect_refused("certify --only corpus,", "an empty name");
+}
+
+TEST_F(Command, NumbersHaveRanges) {
+  write("a.obj", kTriangle);
+  const std::pair<const char*, std::vector<const char*>> numbers[] = {
+      {"certify --seed", {"-1", "99999999999999999999999", "18446744073709551616", "1.5", "0x1", "1e3", " 1", "+1"}},
+      {"certify --jobs", {"-1", "0", "4097", "010x", "4294967297"}},
+      {"certify --time-limit", {"-1", "0", "nan", "inf", "1e99", "3601", "0x1p3"}},
+      {"certify --shard", {"-1/2", "0/2", "3/2", "1/99999999999999999999999", "1/", "/1", "1/100001"}},
+      {"zoo --cases", {"-1", "0", "100000001"}},
+      {"zoo --jobs", {"-1", "0", "4097"}},
+      {"reduce a.scene -o b.scene --seconds", {"-1", "0", "86401", "99999999999999999999999"}},
+      {"explain a.scene -o b.svg --tile", {"-8", "5", "0", "128", "0x8"}},
+      {"explain a.scene -o b.svg --triangle", {"-1", "2147483648", "99999999999999999999999"}},
+      {"render a.obj -o b.png --fov", {"-1", "181", "nan", "1e999"}},
+      {"render a.obj -o b.png --near", {"-1", "0", "inf", "1e39"}},
+      {"render a.obj -o b.png --far", {"-1", "0", "inf", "1e39"}},
+      {"render a.obj -o b.png --eye", {"1,2,1e39", "1,2,inf", "1,2,-1e999"}},
+  };
+  for (const auto& [option, values] : numbers) {
+    const std::string name = option + std::string(option).rfind("--");
+    for (const char* value : values) expect_refused(option + std::string(" '") + value + "'", name + " " + value);
+  }
+  EXPECT_EQ(run("certify --only bad-arguments --seed 18446744073709551615").status, 0);
+}
+
+TEST_F(Command, OverwritesNeitherInputsNorOtherOutputs) {
+  write("a.obj", kTriangle);
+  write("a.scene", kOneTriangle);
+  write("a.json", "{}\n");
+  fs::create_directory(path("folder"));
+  fs::create_symlink("a.obj", path("link.png"));
+  fs::create_hard_link(path("a.obj"), path("hard.png"));
+  fs::create_symlink("a.scene", path("link.scene"));
+  fs::create_symlink("a.scene", path("link.svg"));
+  fs::create_symlink(".", path("here"));
+  fs::create_symlink("not-there.html", path("link.html"));
+  const std::string mesh = contents(path("a.obj")), scene = contents(path("a.scene"));
+  const char* overwritten = "would be overwritten";
+  expect_refused("render a.obj -o a.obj", ".png");
+  expect_refused("render a.obj -o link.png", overwritten);
+  expect_refused("render a.obj -o hard.png", overwritten);
+  expect_refused("reduce a.scene -o a.scene", overwritten);
+  expect_refused("reduce a.scene -o ./folder/../a.scene", overwritten);
+  expect_refused("reduce here/a.scene -o \"$PWD/a.scene\"", overwritten);
+  expect_refused("reduce a.scene -o link.scene", overwritten);
+  expect_refused("explain a.scene -o link.svg", overwritten);
+  expect_refused("merge a.json --json here/a.json", overwritten);
+  expect_refused("certify --command 'python3 a.json' --resume ./a.json", overwritten);
+  expect_refused("certify --json b.json --resume here/b.json", "is the file of --json, too");
+  expect_refused("certify --html link.html --resume ./not-there.html", "is the file of --html, too");
+  expect_refused("certify --json x.html --html x.html", ".json");
+  expect_refused("render a.obj -o -", "/dev/stdout");
+  expect_refused("certify --json -", "/dev/stdout");
+  expect_refused("certify --resume -", "/dev/stdout");
+  expect_refused("render a.obj -o x.jpg", "expected a name that ends in .png");
+  expect_refused("render a.obj -o png", "expected a name that ends in .png");
+  expect_refused("reduce a.scene -o x.obj", "expected a name that ends in .scene");
+  expect_refused("explain a.scene -o x.pdf", "expected a name that ends in .svg or .png");
+  expect_refused("merge a.json --html x.pdf", "expected a name that ends in .html or .htm");
+  expect_refused("certify --junit x.json", "expected a name that ends in .xml");
+  expect_refused("zoo --cases 1 --markdown x.txt --picture x.svg", "expected a name that ends in .md");
+  expect_refused("zoo --cases 1 --markdown x.md --picture x.png", "expected a name that ends in .svg");
+  EXPECT_EQ(contents(path("a.obj")), mesh);
+  EXPECT_EQ(contents(path("a.scene")), scene);
+  // A link to somewhere else stays a link; a pipe has any name.
+  fs::create_symlink("drawn.png", path("elsewhere.png"));
+  EXPECT_EQ(run("render a.obj --size 8x8 -o elsewhere.png").status, 0);
+  EXPECT_TRUE(fs::is_symlink(path("elsewhere.png")) && is_png(contents(path("drawn.png"))));
+  EXPECT_EQ(run("render a.obj --size 8x8 -o DRAWN.PNG").status, 0);
+  EXPECT_EQ(run("render a.obj --size 8x8 -o /dev/stdout | cmp - drawn.png; echo $?").out, "0\n");
+}
+
+TEST_F(Command, RefusesEditedCertificates) {
+  ASSERT_EQ(run("certify --only bad-arguments,order --json whole.json").status, 0);
+  ASSERT_EQ(run("merge whole.json").status, 0);
+  ASSERT_EQ(run("certify --only bad-arguments,order --resume run.state").status, 0);
+  const std::string whole = contents(path("whole.json")), state = contents(path("run.state"));
+  const auto edited = [](std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.rfind(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+  };
+  const std::pair<const char*, const char*> edits[] = {{"\"differences\": 0", "\"differences\": 7"},
+                                                       {"\"samples\": ", "\"samples\": -"},
+                                                       {"\"done\": 8", "\"done\": 9"},
+                                                       {"\"seed\": 1", "\"seed\": 2"},
+                                                       {"\"order\"", "\"other\""},
+                                                       {"\"failed\": 0", "\"failed\": 1"},
+                                                       {"\"level\": \"quick\"", "\"level\": \"thorough\""}};
+  for (const auto& [from, to] : edits) {
+    write("edited.json", edited(whole, from, to));
+    expect_refused("merge edited.json", "edited.json: its checksum is not that of its content");
+    write("edited.state", edited(state, from, to));
+    expect_refused("certify --only bad-arguments,order --resume edited.state", "edited or damaged");
+  }
+  write("edited.json", edited(whole, "\"verdict\": \"certified\"", "\"verdict\": \"not_certified\""));
+  expect_refused("merge edited.json", "checksum");
+  write("edited.json", edited(whole, "\"format_version\": 3", "\"format_version\": 2"));
+  expect_refused("merge edited.json", "another version: 2, where 3 is read");
+  write("edited.json", std::string(100000, '['));
+  expect_refused("merge edited.json", "nested too deeply");
+  write("edited.json", whole.substr(0, whole.size() / 2));
+  expect_refused("merge edited.json", "not a certificate");
+}
+
 TEST_F(Command, RefusesBadFiles) {
   write("a.obj", kTriangle);
   write("empty.obj", "");
@@ -126,6 +265,29 @@ TEST_F(Command, RefusesBadFiles) {
   expect_refused("render normal.obj -o out.png", "normal.obj:5: the face names normal 2");
   expect_refused("render word.obj -o out.png", "word.obj:1:");
   expect_refused("render binary.obj -o out.png", "binary.obj:2: not a text file");
+  const std::string read = "scenes (.scene) and Wavefront OBJ meshes (.obj) are read";
+  const std::pair<std::string, std::string> others[] = {
+      {"\x1f\x8b\x08garbage", "gzip-compressed"},
+      {"ply\nformat ascii 1.0\n", "a PLY file"},
+      {"glTF\2\1", "a GLB file"},
+      {"solid cube\nfacet normal 0 0 1\n", "an STL file"},
+      {std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), "an STL file"},
+      {"\xff\xfev\1", "text in UTF-16"},
+      {"PK\3\4", "a zip archive"},
+      {"OFF\n3 1 0\n", "an OFF file"}};
+  for (const auto& [bytes, name] : others) {
+    write("other.obj", bytes);
+    write("other.scene", bytes);
+    expect_refused("render other.obj -o out.png", "other.obj:1: this is " + name);
+    expect_refused("render other.obj -o out.png", read);
+    expect_refused("render other.scene -o out.png", "other.scene:1: this is " + name);
+    expect_refused("replay other.scene", read);
+  }
+  write("other.obj", "facet normal 0 0 1\n");
+  expect_refused("render other.obj -o out.png", "\"facet\" is no OBJ statement: " + read);
+  write("other.obj", kOneTriangle);
+  expect_refused("render other.obj -o out.png", "this is a scene: its name must end in .scene");
+  expect_refused("render binary.obj -o out.png", read);
   expect_refused("render points.obj -o out.png", "no triangle");
   expect_refused("render empty.obj -o out.png", "no triangle");
   expect_refused("render missing.obj -o out.png", "missing.obj: No such file");
@@ -161,6 +323,17 @@ TEST_F(Command, DrawsPictures) {
   }
   EXPECT_EQ(run("render a.obj --size 40x30 --eye 0.2,0.2,0.01 --target 0.2,0.3,-1 --fov 120 -o inside.png").status, 0);
   EXPECT_EQ(files().size(), 12u);
+}
+
+// Editors on Windows write one.
+TEST_F(Command, TakesAByteOrderMark) {
+  write("a.obj", kTriangle);
+  write("mark.obj", std::string("\xef\xbb\xbf") + kTriangle);
+  write("mark.scene", std::string("\xef\xbb\xbf") + kOneTriangle);
+  EXPECT_EQ(run("render a.obj --size 8x8 -o a.png").status, 0);
+  EXPECT_EQ(run("render mark.obj --size 8x8 -o mark.png").status, 0);
+  EXPECT_EQ(contents(path("a.png")), contents(path("mark.png")));
+  EXPECT_EQ(run("replay mark.scene").status, 0);
 }
 
 TEST_F(Command, WarnsOfVerticesThatAreNotFinite) {

@@ -185,6 +185,27 @@ TEST(SceneText, DecimalsAreRoundedOnceToNearest) {
   EXPECT_EQ(vertex.w, std::numeric_limits<float>::max());
 }
 
+// float.hex() of a double that is a float32: 13 digits after the point, zeros at their end.
+TEST(SceneText, HexfloatsAsPythonWritesThem) {
+  const Scene scene = read_scene(with_draw_lines(
+      "vertex 0x1.99999a0000000p-4 -0x1.8000000000000p+0 0x0.0000020000000p-126 0x1.fffffe0000000p+127\n"
+      "vertex 0x0.0p+0 -0x0.0p+0 0x1.0000000000000p-149 0x1.00000000000000000000p+0"));
+  const std::vector<SceneVertex>& v = scene.draws[0].vertices;
+  EXPECT_EQ(v[0].x, 0.1F);
+  EXPECT_EQ(v[0].y, -1.5F);
+  EXPECT_EQ(v[0].z, 0x1p-149F);
+  EXPECT_EQ(v[0].w, std::numeric_limits<float>::max());
+  EXPECT_EQ(std::bit_cast<std::uint32_t>(v[1].y), 0x80000000u);
+  EXPECT_EQ(v[1].z, 0x1p-149F);
+  EXPECT_EQ(v[1].w, 1.F);
+}
+
+TEST(SceneText, AByteOrderMarkIsPassedOver) {
+  const std::string text = "# A\n" + with_frame_lines("");
+  EXPECT_TRUE(equal(read_scene("\xef\xbb\xbf" + text), read_scene(text)));
+  EXPECT_EQ(refusal("\xef\xbb\xbf\xef\xbb\xbf" + text), "f:1: the first line must be 'surefill-scene 1'");
+}
+
 TEST(SceneText, OneInitialDepthServesAllSamples) {
   const Scene scene = read_scene(with_frame_lines("initial-depth nan"));
   EXPECT_EQ(scene.initial_depth.size(), 1u);
@@ -224,6 +245,11 @@ TEST(SceneText, RefusalsNameLineAndCause) {
       {"surefill-scene 1", "f:1: the last line has no line break: the file is cut short"},
       {"surefill-scene 1\ntarget 4 4\n", "f:2: no draw"},
       {"surefill-scene 1\ndraw\nend\n", "f:2: no target before the first draw"},
+      {"\x1f\x8b\x08garbage",
+       "f:1: this is gzip-compressed: scenes (.scene) and Wavefront OBJ meshes (.obj) are read, as plain text in "
+       "UTF-8"},
+      {"\xff\xfes",
+       "f:1: this is text in UTF-16: scenes (.scene) and Wavefront OBJ meshes (.obj) are read, as plain text in UTF-8"},
       {with_frame_lines(std::string("sam\0ples 1", 10)), "f:3: control character: this is not a text file"},
       {with_frame_lines("# \x1b[0m"), "f:3: control character: this is not a text file"},
       {with_frame_lines("\x89PNG"), "f:3: unknown keyword '?PNG'"},
@@ -292,6 +318,7 @@ TEST(SceneText, RefusalsNameLineAndCause) {
       {with_draw_lines("vertex 0 0 0 0x1.0000001p+0"), "f:4: '0x1.0000001p+0' is not exactly a float32"},
       {with_draw_lines("vertex 0 0 0 0x1.00000000000000001p+0"),
        "f:4: '0x1.00000000000000001p+0' is not exactly a float32"},
+      {with_draw_lines("vertex 0 0 0 0x1.0000000000001p+0"), "f:4: '0x1.0000000000001p+0' is not exactly a float32"},
       {with_draw_lines("vertex 0 0 0 0x1p-150"), "f:4: '0x1p-150' is not exactly a float32"},
       {with_draw_lines("vertex 0 0 0 0x"), "f:4: '0x' is not a number"},
       {with_draw_lines("vertex 0 0 0 0x1p"), "f:4: '0x1p' is not a number"},

@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -52,6 +54,66 @@ TEST(Zoo, BlatantSpecimensDieEarly) {
     EXPECT_NE(verdict.differences, 0u) << name << " survives 500 cases of " << property.name;
     EXPECT_FALSE(verdict.finding.empty()) << name;
   }
+}
+
+// The first number of `finding` after `word`; none where no number stands there.
+std::optional<long> number_after(const std::string& finding, const std::string& word) {
+  const std::size_t at = finding.find(word);
+  if (at == std::string::npos) return std::nullopt;
+  const char* begin = finding.c_str() + at + word.size();
+  char* end = nullptr;
+  const long value = std::strtol(begin, &end, 10);
+  // "at most 1" in the picture is 1; a decimal or a hexfloat is of another output.
+  if (end == begin || *end == '.' || *end == 'x') return std::nullopt;
+  return value;
+}
+
+// What a finding says of a pixel is what its picture shows there: for each property that has pictures of its own, on a
+// finding of every specimen that it kills early.
+TEST(Zoo, PicturesShowWhatFindingsSay) {
+  std::set<std::string_view> shown, properties;
+  for (const Property& property : all_properties()) {
+    if (property.needs_oracle || !property.simplifies) continue;
+    properties.insert(property.name);
+    for (const zoo::Specimen& specimen : zoo::specimens()) {
+      // What these draw depends on the frame before.
+      if (std::string_view(specimen.name) == "race" || std::string_view(specimen.name) == "state-left-over") continue;
+      const std::uint64_t cases = property.name == std::string_view(specimen.named_by) ? 400 : 6;
+      for (std::uint64_t n = 0; n < affordable_cases(property, cases); ++n) {
+        const corpus::Scene scene = sampled_case(property, n);
+        const Verdict verdict = property.decide(scene, specimen.render);
+        if (verdict.differences == 0) continue;
+        const std::string& said = verdict.finding;
+        const std::size_t pixel = said.find(" at pixel (");
+        if (pixel == std::string::npos) continue;  // another status than ok
+        SCOPED_TRACE(std::string(property.name) + ", " + specimen.name + ", case " + std::to_string(n) + ": " + said);
+        const auto exhibit = exhibit_of(property, scene, specimen.render);
+        ASSERT_TRUE(exhibit);
+        const auto samples = static_cast<std::size_t>(exhibit->samples);
+        const std::size_t total =
+            static_cast<std::size_t>(exhibit->width) * static_cast<std::size_t>(exhibit->height) * samples;
+        ASSERT_TRUE(exhibit->expected.size() == total && exhibit->actual.size() == total &&
+                    exhibit->differs.size() == total);
+        const auto x = static_cast<std::size_t>(number_after(said, " at pixel (").value_or(0));
+        const auto y = static_cast<std::size_t>(number_after(said.substr(pixel + 11), ", ").value_or(0));
+        const std::size_t first = (y * static_cast<std::size_t>(exhibit->width) + x) * samples;
+        ASSERT_LT(first, total);
+        const std::size_t at_most = said.find("expected at most ");
+        const auto expected = number_after(said, at_most == std::string::npos ? "expected " : "expected at most ");
+        const auto actual = number_after(said, "got ");
+        bool marked = false, as_said = false;
+        for (std::size_t s = first; s < first + samples; ++s) {
+          marked = marked || exhibit->differs[s] != 0;
+          as_said = as_said || (expected == exhibit->expected[s] && actual == exhibit->actual[s]);
+        }
+        EXPECT_TRUE(marked);
+        EXPECT_TRUE(as_said || exhibit->output != "count");
+        shown.insert(property.name);
+        break;
+      }
+    }
+  }
+  EXPECT_EQ(shown, properties);
 }
 
 TEST(Zoo, AFindingReducesToOneTriangle) {

@@ -63,6 +63,9 @@ class Check {
   // The finding: "WHAT at pixel (x, y): expected E, got A".
   void differs(std::string_view what, int x, int y, const std::string& expected, const std::string& actual);
   void expect_count(std::string_view what, int x, int y, std::uint32_t expected, std::uint32_t actual);
+  void expect_index(std::string_view what, int x, int y, std::uint32_t expected, std::uint32_t actual);
+  // At most so many: what more would say is not claimed.
+  void expect_at_most(std::string_view what, int x, int y, std::uint32_t most, std::uint32_t actual);
   void expect_bits(std::string_view what, int x, int y, float expected, float actual);
 
   // Every output that both images have, bit for bit.
@@ -83,6 +86,9 @@ class Check {
 
  private:
   std::optional<corpus::Image> image_of(corpus::Frame& frame, std::span<const Draw> draws);
+  void add_difference(std::string_view what, int x, int y, const std::string& expected, const std::string& actual);
+  void show_pixel(std::string_view what, const char* output, int x, int y, std::uint32_t expected, std::uint32_t actual,
+                  bool differs);
 
   const Renderer& renderer_;
   Verdict verdict_;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdio>
 #include <limits>
+#include <map>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,6 +14,64 @@
 #include "properties/machinery/check.hpp"
 
 namespace surefill::properties {
+
+namespace {
+
+// What a check on this thread shows, while somebody wants to see it. A check looks at pixels under several headings;
+// the exhibit is of the one with the first difference.
+struct Page {
+  Exhibit exhibit;
+  std::size_t last = 0;  // pixel that was looked at
+  bool complete = false;
+};
+struct Showing {
+  int width = 0, height = 0;
+  std::map<std::string, Page, std::less<>> pages;
+  std::optional<Exhibit> found;
+  Page* found_page = nullptr;
+  std::vector<std::uint32_t> covers;  // of each pixel of the last image
+};
+thread_local Showing* showing = nullptr;
+
+// How often each sample of an image is covered, as far as its outputs say.
+std::vector<std::uint32_t> covers_of(const corpus::Image& image) {
+  if (!image.count.empty()) return image.count;
+  std::vector<std::uint32_t> covers(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height) *
+                                    static_cast<std::size_t>(image.samples));
+  for (std::size_t s = 0; s < image.index.size(); ++s) covers[s] = image.index[s] == kNoTriangle ? 0 : 1;
+  return covers;
+}
+
+std::vector<std::uint32_t> covers_of_pixels(const corpus::Image& image) {
+  const std::vector<std::uint32_t> covers = covers_of(image);
+  const auto samples = static_cast<std::ptrdiff_t>(image.samples);
+  std::vector<std::uint32_t> result;
+  for (auto at = covers.begin(); at != covers.end(); at += samples) {
+    result.push_back(*std::max_element(at, at + samples));
+  }
+  return result;
+}
+
+std::string index_text(std::uint32_t index) {
+  return index == kNoTriangle ? "none" : std::to_string(index);
+}
+
+}  // namespace
+
+std::optional<Exhibit> exhibit_of(const Property& property, const corpus::Scene& scene, const Renderer& renderer) {
+  Showing shown;
+  shown.width = scene.width;
+  shown.height = scene.height;
+  showing = &shown;
+  try {
+    (void)property.decide(scene, renderer);
+  } catch (const std::exception&) {
+    // The finding says why there is no image, unless there was a difference before.
+  }
+  showing = nullptr;
+  if (shown.found_page != nullptr) return std::move(shown.found_page->exhibit);
+  return std::move(shown.found);
+}
 
 std::optional<corpus::Image> Check::draw(const corpus::Scene& scene, const corpus::Outputs& outputs) {
   return draw_over(0, scene, outputs);
@@ -47,7 +106,39 @@ std::optional<corpus::Image> Check::image_of(corpus::Frame& frame, std::span<con
     differs("the renderer returned \"" + std::string(status_text(status)) + "\"");
     return std::nullopt;
   }
+  if (showing != nullptr) showing->covers = covers_of_pixels(frame.image());
   return std::move(frame.image());
+}
+
+// A pixel that was looked at, with its covers, or with those of the last image where `output` is another than the
+// count.
+void Check::show_pixel(std::string_view what, const char* output, int x, int y, std::uint32_t expected,
+                       std::uint32_t actual, bool differs) {
+  const bool found = showing->found || showing->found_page != nullptr;
+  auto at = showing->pages.find(what);
+  if (at == showing->pages.end()) {
+    if (found) return;
+    at = showing->pages.emplace(what, Page{}).first;
+    const auto total = static_cast<std::size_t>(showing->width) * static_cast<std::size_t>(showing->height);
+    std::vector<std::uint32_t> covers(total, 0);
+    if (std::string_view(output) != "count" && showing->covers.size() == total) covers = showing->covers;
+    at->second.exhibit = {showing->width, showing->height, 1, output, covers, covers, std::vector<std::uint8_t>(total)};
+  }
+  Page& page = at->second;
+  if ((found && showing->found_page != &page) || page.complete || x >= showing->width || y >= showing->height) return;
+  const std::size_t e =
+      static_cast<std::size_t>(y) * static_cast<std::size_t>(showing->width) + static_cast<std::size_t>(x);
+  // The same pixels again, of another triangle, say: they are not what was found.
+  page.complete = found && e < page.last;
+  if (page.complete) return;
+  page.last = e;
+  if (page.exhibit.output == "count") {
+    page.exhibit.expected[e] = expected;
+    page.exhibit.actual[e] = actual;
+  }
+  if (!differs) return;
+  page.exhibit.differs[e] = 1;
+  showing->found_page = &page;
 }
 
 void Check::differs(const std::string& finding) {
@@ -55,6 +146,12 @@ void Check::differs(const std::string& finding) {
 }
 
 void Check::differs(std::string_view what, int x, int y, const std::string& expected, const std::string& actual) {
+  if (showing != nullptr) show_pixel(what, "values", x, y, 0, 0, true);
+  add_difference(what, x, y, expected, actual);
+}
+
+void Check::add_difference(std::string_view what, int x, int y, const std::string& expected,
+                           const std::string& actual) {
   if (verdict_.differences != 0) {
     ++verdict_.differences;
     return;
@@ -64,7 +161,18 @@ void Check::differs(std::string_view what, int x, int y, const std::string& expe
 }
 
 void Check::expect_count(std::string_view what, int x, int y, std::uint32_t expected, std::uint32_t actual) {
-  if (expected != actual) differs(what, x, y, std::to_string(expected), std::to_string(actual));
+  if (showing != nullptr) show_pixel(what, "count", x, y, expected, actual, expected != actual);
+  if (expected != actual) add_difference(what, x, y, std::to_string(expected), std::to_string(actual));
+}
+
+void Check::expect_index(std::string_view what, int x, int y, std::uint32_t expected, std::uint32_t actual) {
+  if (showing != nullptr) show_pixel(what, "index", x, y, 0, 0, expected != actual);
+  if (expected != actual) add_difference(what, x, y, index_text(expected), index_text(actual));
+}
+
+void Check::expect_at_most(std::string_view what, int x, int y, std::uint32_t most, std::uint32_t actual) {
+  if (showing != nullptr) show_pixel(what, "count", x, y, std::min(most, actual), actual, actual > most);
+  if (actual > most) add_difference(what, x, y, "at most " + std::to_string(most), std::to_string(actual));
 }
 
 void Check::expect_bits(std::string_view what, int x, int y, float expected, float actual) {
@@ -78,6 +186,13 @@ void Check::expect_same(std::string_view what, const corpus::Scene& scene, const
   std::string named(what);
   named += ": ";
   const auto label = [&](std::string_view output) { return named + std::string(output); };
+  const bool shows = showing != nullptr && !showing->found && showing->found_page == nullptr;
+  Exhibit shown;
+  if (shows) {
+    shown = {expected.width, expected.height, expected.samples, "", covers_of(expected), covers_of(expected), {}};
+    shown.differs.assign(shown.expected.size(), 0);
+  }
+  const std::vector<std::uint32_t> covers = shows ? covers_of(actual) : std::vector<std::uint32_t>();
   for (int y = 0; y < expected.height; ++y)
     for (int x = 0; x < expected.width; ++x) {
       if (correspondence.where && !correspondence.where(x, y)) continue;
@@ -86,13 +201,24 @@ void Check::expect_same(std::string_view what, const corpus::Scene& scene, const
         const std::size_t e = element(expected, x, y) * samples + n;
         const std::size_t a = element(actual, there[0], there[1]) * samples + n;
         looked_at(1);
-        if (!expected.count.empty() && expected.count[e] != actual.count[a])
-          expect_count(label("count"), x, y, expected.count[e], actual.count[a]);
-        if (!expected.index.empty() && expected.index[e] != actual.index[a])
-          expect_count(label("index"), x, y, expected.index[e], actual.index[a]);
+        if (shows) shown.actual[e] = covers[a];
+        const auto mark = [&](const char* output) {
+          if (!shows) return;
+          if (shown.output.empty()) shown.output = output;
+          if (shown.output == output) shown.differs[e] = 1;
+        };
+        if (!expected.count.empty() && expected.count[e] != actual.count[a]) {
+          mark("count");
+          add_difference(label("count"), x, y, std::to_string(expected.count[e]), std::to_string(actual.count[a]));
+        }
+        if (!expected.index.empty() && expected.index[e] != actual.index[a]) {
+          mark("index");
+          add_difference(label("index"), x, y, index_text(expected.index[e]), index_text(actual.index[a]));
+        }
         const auto bits = [&](std::string_view output, float wanted, float got) {
-          if (std::bit_cast<std::uint32_t>(wanted) != std::bit_cast<std::uint32_t>(got))
-            expect_bits(label(output), x, y, wanted, got);
+          if (std::bit_cast<std::uint32_t>(wanted) == std::bit_cast<std::uint32_t>(got)) return;
+          mark("values");
+          add_difference(label(output), x, y, text(wanted), text(got));
         };
         if (!expected.depth.empty()) bits("depth", expected.depth[e], actual.depth[a]);
         if (!expected.barycentrics.empty())
@@ -108,6 +234,7 @@ void Check::expect_same(std::string_view what, const corpus::Scene& scene, const
         }
       }
     }
+  if (shows && !shown.output.empty()) showing->found = std::move(shown);
 }
 
 void Check::expect_parts(std::string_view what, const corpus::Scene& scene, const Scissor& rectangle,

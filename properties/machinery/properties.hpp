@@ -10,6 +10,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "corpus/scene.hpp"
 #include "properties/machinery/compare.hpp"
@@ -39,6 +40,19 @@ struct Property {
 };
 
 std::span<const Property> all_properties();
+
+// The picture of a finding: the covers that the claim asks of each sample, and those that came. Where another output
+// differs the covers may be equal, and the marks say where it does.
+struct Exhibit {
+  int width = 0, height = 0, samples = 1;
+  std::string output;  // "count", "index" or "values"
+  std::vector<std::uint32_t> expected, actual;
+  std::vector<std::uint8_t> differs;
+};
+
+// Of what `decide` finds first on the scene. None where it finds nothing, where there is no image to show, and where it
+// holds the renderer against the oracle: then the two images of the scene are the picture.
+std::optional<Exhibit> exhibit_of(const Property& property, const corpus::Scene& scene, const Renderer& renderer);
 
 // Case n of the property: n itself, or some case of an exhaustive one, well mixed.
 corpus::Scene sampled_case(const Property& property, std::uint64_t n);

@@ -59,7 +59,7 @@ Verdict decide_shift(const corpus::Scene& scene, const Renderer& renderer) {
         check.looked_at(1);
         check.expect_count(label + "count", x, y, image->count[e], all->count[a]);
         if (!outputs.depth) continue;
-        check.expect_count(label + "index", x, y, image->index[e], all->index[a]);
+        check.expect_index(label + "index", x, y, image->index[e], all->index[a]);
         check.expect_bits(label + "depth", x, y, image->depth[e], all->depth[a]);
       }
   }

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What the readers of scenes and meshes have in common: the bytes before the first line.
+#ifndef SUREFILL_CORPUS_TEXT_FILE_HPP
+#define SUREFILL_CORPUS_TEXT_FILE_HPP
+
+#include <string>
+#include <string_view>
+
+namespace surefill::corpus {
+
+inline constexpr std::string_view kWhatIsRead =
+    "scenes (.scene) and Wavefront OBJ meshes (.obj) are read, as plain text in UTF-8";
+
+// Without a byte order mark of UTF-8, which editors on Windows write.
+std::string_view without_byte_order_mark(std::string_view text);
+
+// "this is gzip-compressed: scenes ... are read", where the first bytes are those of a well-known format that is
+// neither a scene nor an OBJ mesh; else empty.
+std::string what_is_not_read(std::string_view text);
+
+}  // namespace surefill::corpus
+
+#endif  // SUREFILL_CORPUS_TEXT_FILE_HPP

@@ -7,10 +7,12 @@
 #include <exception>
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <thread>
 
 #include "certify/commands/certify_command.hpp"
 #include "certify/commands/options.hpp"
+#include "certify/rivals/host.hpp"
 #include "certify/run/files.hpp"
 #include "certify/run/progress.hpp"
 #include "mutation/matrix.hpp"
@@ -49,6 +51,10 @@ int run(Arguments& arguments) {
 }
 
 int parse_and_run(int argc, char** argv) {
+  // The process that is started for a plugin is this program again, as it is of surefill.
+  if (argc > 2 && std::string_view(argv[1]) == "plugin-host") {
+    return adapters::host_plugin(argv[2], argc > 3 ? argv[3] : "");
+  }
   Arguments arguments;
   arguments.options.jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   arguments.options.cases = 500;

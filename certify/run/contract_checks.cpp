@@ -186,7 +186,8 @@ unsigned float_state() {
   return state;
 }
 
-// Calls `call` in a mode, without flags; false if the state was another one afterwards. The state before is back at the end.
+// Calls `call` in a mode, without flags; false if the state was another one afterwards. The state before is back at the
+// end.
 bool in_mode(const FloatMode& mode, const std::function<void()>& call) {
   std::fenv_t saved;
   std::fegetenv(&saved);

@@ -263,13 +263,14 @@ struct Image {
 
 TEST(FloatState, Render) {
   Executing executing;
-  for (const auto& [name, options] : ways(executing)) {
+  for (const How& how : ways(executing)) {
+    const Options& options = how.options;
     for (const int samples : {1, 2}) {
       Image image(samples);
-      check(
-          {"render, " + name, [&] { ASSERT_EQ(render(image.target, triangles().draws, nullptr, options), Status::ok); },
-           [&] { return image.bytes(); }},
-          raised_by(options));
+      check({"render, " + how.name,
+             [&] { ASSERT_EQ(render(image.target, triangles().draws, nullptr, options), Status::ok); },
+             [&] { return image.bytes(); }},
+            raised_by(options));
       // Most of the image is there, subnormal depths among it.
       EXPECT_GT(std::count_if(image.depth.begin(), image.depth.end(), [](float z) { return z > 0 && z < 0x1p-126f; }),
                 20);
@@ -308,7 +309,8 @@ TEST(FloatState, CallersCodeRunsInTheCallersState) {
   };
   const std::span<const Draw> draws = triangles().draws;  // made before the state is set
   const State before = now();
-  for (const auto& [name, options] : ways(executing)) {
+  for (const How& how : ways(executing)) {
+    const Options& options = how.options;
     for (const State& state : states()) {
       visits.seen.clear(), executing.seen.clear();
       set(state);
@@ -316,13 +318,13 @@ TEST(FloatState, CallersCodeRunsInTheCallersState) {
       const State after = now();
       set(before);
       ASSERT_EQ(status, Status::ok);
-      ASSERT_EQ(after.control, state.control) << name;
-      ASSERT_EQ(after.flags, state.flags | kDivideFlag) << name;
+      ASSERT_EQ(after.control, state.control) << how.name;
+      ASSERT_EQ(after.flags, state.flags | kDivideFlag) << how.name;
       ASSERT_GT(visits.seen.size(), 20u);
       for (const auto* seen : {&visits.seen, &executing.seen}) {
         for (const State& s : *seen) {
-          ASSERT_EQ(s.control & 0xFFFF, state.control & 0xFFFF) << name;
-          ASSERT_EQ(s.flags | kDivideFlag, state.flags | kDivideFlag) << name;
+          ASSERT_EQ(s.control & 0xFFFF, state.control & 0xFFFF) << how.name;
+          ASSERT_EQ(s.flags | kDivideFlag, state.flags | kDivideFlag) << how.name;
         }
       }
     }
@@ -344,9 +346,10 @@ TEST(FloatState, VisitCoverage) {
     const std::lock_guard lock(own.mutex);
     for (const CoverageBlock& b : list) own.all.emplace_back(b.draw, b.triangle, b.x, b.y, b.sample, b.mask);
   };
-  for (const auto& [name, options] :
+  for (const How& how :
        std::vector<How>{{"reference", {.path = Path::reference}}, {"fast", {}}, {"fast, 3 threads", {.threads = 3}}}) {
-    check({"visit_coverage, " + name,
+    const Options& options = how.options;
+    check({"visit_coverage, " + how.name,
            [&] {
              blocks.all.clear();
              ASSERT_EQ(visit_coverage(kWidth, kHeight, 2, triangles().draws, {visit, &blocks}, nullptr, options),
@@ -452,11 +455,12 @@ TEST(FloatState, Occlusion) {
   const Questions questions;
   const Draw wall = subnormal_wall();
   Executing executing;
-  for (const auto& [name, options] : ways(executing)) {
+  for (const How& how : ways(executing)) {
+    const Options& options = how.options;
     for (const bool with_wall : {true, false}) {
       std::vector<Occlusion> of_boxes(questions.boxes.size()), of_rectangles(questions.rectangles.size());
       OcclusionBuffer buffer;
-      check({"OcclusionBuffer, " + name,
+      check({"OcclusionBuffer, " + how.name,
              [&] {
                ASSERT_EQ(buffer.resize(kWidth, kHeight), Status::ok);
                ASSERT_EQ(buffer.draw(triangles().draws, nullptr, options), Status::ok);

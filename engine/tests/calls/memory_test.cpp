@@ -272,15 +272,16 @@ struct Image {
 TEST(Memory, Render) {
   const Draws draws;
   Image image;
-  for (const auto& [name, options] : kWays) {
+  for (const How& how : kWays) {
+    const Options& options = how.options;
     for (const bool all : {true, false}) {  // without depth and index the reference path keeps its own
       image.target.depth = all ? std::span(image.depth) : std::span<float>();
-      const int refused = check({std::string("render, ") + name,
+      const int refused = check({std::string("render, ") + how.name,
                                  [&] { image.reset(); },
                                  [&] { return number(render(image.target, draws.draws, &image.statistics, options)); },
                                  [&] { return image.bytes(); },
                                  {}});
-      EXPECT_GE(refused, 2 * least(options)) << name;
+      EXPECT_GE(refused, 2 * least(options)) << how.name;
     }
   }
 }
@@ -294,10 +295,11 @@ TEST(Memory, VisitCoverage) {
   const auto visit = [](void* context, std::span<const CoverageBlock> blocks) {
     std::atomic_ref(static_cast<Seen*>(context)->blocks) += blocks.size();
   };
-  for (const auto& [name, options] : kWays) {
+  for (const How& how : kWays) {
+    const Options& options = how.options;
     Statistics statistics;
     const int refused =
-        check({std::string("visit_coverage, ") + name,
+        check({std::string("visit_coverage, ") + how.name,
                [&] {
                  seen = {};
                  statistics = {};
@@ -315,7 +317,7 @@ TEST(Memory, VisitCoverage) {
                {}});
 #if !defined(SUREFILL_REFERENCE_ONLY)
     if (options.path == Path::automatic) {
-      EXPECT_GE(refused, 2 * least(options)) << name;
+      EXPECT_GE(refused, 2 * least(options)) << how.name;
     }
 #endif
     (void)refused;
@@ -338,7 +340,8 @@ Bytes state_of(const OcclusionBuffer& buffer) {
 
 TEST(Memory, OcclusionBuffer) {
   const Draws draws;
-  for (const auto& [name, options] : kWays) {
+  for (const How& how : kWays) {
+    const Options& options = how.options;
     OcclusionBuffer buffer;
     const auto prepare = [&] {
       ASSERT_EQ(buffer.resize(kWidth, kHeight), Status::ok);
@@ -347,10 +350,10 @@ TEST(Memory, OcclusionBuffer) {
     OcclusionBuffer clear;
     ASSERT_EQ(clear.resize(kWidth, kHeight), Status::ok);
     // A buffer that could not draw is clear: depth and levels.
-    const int refused = check({std::string("OcclusionBuffer::draw, ") + name, prepare,
+    const int refused = check({std::string("OcclusionBuffer::draw, ") + how.name, prepare,
                                [&] { return number(buffer.draw(std::span(draws.draws + 1, 1), nullptr, options)); },
                                [&] { return state_of(buffer); }, [&] { return state_of(clear); }});
-    EXPECT_GE(refused, 2 * least(options)) << name;
+    EXPECT_GE(refused, 2 * least(options)) << how.name;
   }
   // One that could not get another size is as it was.
   OcclusionBuffer buffer;
@@ -413,16 +416,17 @@ TEST(Memory, CRender) {
                              state,
                              {}});
   EXPECT_EQ(refused, 6);  // the draws, their attributes, their vertices
-  for (const auto& [name, cpp] : kWays) {
+  for (const How& how : kWays) {
+    const Options& cpp = how.options;
     if (cpp.executor.run != nullptr) continue;
     const surefill_options options{sizeof options, cpp.threads, static_cast<std::uint32_t>(cpp.path), nullptr};
     const int of_render = check(
-        {std::string("surefill_render, ") + name,
+        {std::string("surefill_render, ") + how.name,
          prepare,
          [&] { return static_cast<std::uint32_t>(surefill_render(&target, draws.draws, 2, &options, &statistics)); },
          state,
          {}});
-    EXPECT_GE(of_render, 6 + 2 * least(cpp)) << name;
+    EXPECT_GE(of_render, 6 + 2 * least(cpp)) << how.name;
   }
 }
 
@@ -462,11 +466,12 @@ TEST(Memory, COcclusion) {
   };
   ASSERT_EQ(surefill_occlusion_create(kWidth, kHeight, SUREFILL_LESS, &occlusion), SUREFILL_OK);
   const Bytes clear = state();
-  for (const auto& [name, cpp] : kWays) {
+  for (const How& how : kWays) {
+    const Options& cpp = how.options;
     if (cpp.executor.run != nullptr) continue;
     const surefill_options options{sizeof options, cpp.threads, static_cast<std::uint32_t>(cpp.path), nullptr};
     const int refused = check(
-        {std::string("surefill_occlusion_draw, ") + name,
+        {std::string("surefill_occlusion_draw, ") + how.name,
          [&] {
            surefill_occlusion_clear(occlusion);
            ASSERT_EQ(surefill_occlusion_draw(occlusion, draws.draws, 1, nullptr, nullptr), SUREFILL_OK);
@@ -475,7 +480,7 @@ TEST(Memory, COcclusion) {
            return static_cast<std::uint32_t>(surefill_occlusion_draw(occlusion, draws.draws + 1, 1, &options, nullptr));
          },
          state, [&] { return clear; }});
-    EXPECT_GE(refused, 6 + 2 * least(cpp)) << name;
+    EXPECT_GE(refused, 6 + 2 * least(cpp)) << how.name;
   }
   surefill_occlusion_destroy(occlusion);
 }

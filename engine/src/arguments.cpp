@@ -168,7 +168,8 @@ Status check_call(const Target& target, std::span<const Draw> draws, const Stati
   Outputs outputs;
   outputs.add(Bytes::of(statistics));
   if (const Status status = validate_frame(target, draws, outputs); status != Status::ok) return status;
-  return outputs.touched_by(Bytes::of(&options)) ? Status::target_overlap : Status::ok;
+  const bool touched = outputs.touched_by(Bytes::of(&options)) || outputs.touched_by(Bytes::of(options.context));
+  return touched ? Status::target_overlap : Status::ok;
 }
 
 const char* status_text(Status status) noexcept {

@@ -285,7 +285,9 @@ const std::vector<std::vector<Change>> kChanges = {
      {"flat, the other", [](Frame& f) { f.arrays[1][0].interpolation = SUREFILL_FLAT; }},
      {"components",
       [](Frame& f) { f.attributes[1].components = f.arrays[0][1].components = f.arrays[1][1].components = 1; }},
+#if !defined(SUREFILL_REFERENCE_ONLY)
      {"reference path", [](Frame& f) { f.options.path = SUREFILL_PATH_REFERENCE; }},
+#endif
      {"no threads", [](Frame& f) { f.options.threads = -1; }},
      {"no such path", [](Frame& f) { f.options.path = 2; }}},
     {{"scissor", with_scissor},

@@ -324,6 +324,47 @@ TEST(Memory, VisitCoverage) {
   }
 }
 
+// A context that could not get memory serves the next call, and gives back all that it has.
+TEST(Memory, Contexts) {
+  const Draws draws;
+  Image image;
+  for (const How& how : kWays) {
+    Options options = how.options;
+    image.reset();
+    ASSERT_EQ(render(image.target, draws.draws, &image.statistics, options), Status::ok);
+    const Bytes good = image.bytes();
+    int refused = 0;
+    for (const bool later : {false, true}) {
+      for (int n = 1, allocations = 1; n <= allocations; ++n) {
+        {
+          Context context;
+          options.context = &context;
+          image.reset();
+          const Bytes before = image.bytes();
+          first_failing = n, later_fail = later, calls = 0;
+          watching = true;
+          const Status status = render(image.target, draws.draws, &image.statistics, options);
+          first_failing = kNever, later_fail = false;
+          EXPECT_TRUE(image.bytes() == (status == Status::ok ? good : before)) << how.name << ", " << n;
+          EXPECT_EQ(render(image.target, draws.draws, &image.statistics, options), Status::ok);
+          watching = false;
+          if (n == 1) allocations = 64;  // more than there are
+          if (n > calls) allocations = n;
+          EXPECT_TRUE(image.bytes() == good) << how.name << ", " << n;
+          refused += status == Status::out_of_memory;
+        }
+        EXPECT_EQ(count_live(), 0u) << how.name << ", " << n << ": leaked";
+      }
+    }
+    EXPECT_GE(refused, 2 * least(options)) << how.name;
+  }
+  first_failing = 1, later_fail = true, calls = 0;
+  watching = true;
+  surefill_context* const context = surefill_context_create();
+  watching = false;
+  EXPECT_EQ(context, nullptr);
+}
+
 // The depths of a buffer, and its answers for rectangles at three depths.
 Bytes state_of(const OcclusionBuffer& buffer) {
   Bytes bytes;

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <new>
 #include <string>
 #include <vector>
 
@@ -227,6 +228,14 @@ TEST(Overlap, EmptyOutputs) {
   call.target.barycentrics = {}, call.target.attributes = {};
   call.target.count = {reinterpret_cast<std::uint32_t*>(call.initial.data()), kSamples};
   EXPECT_EQ(render(call.target, call.draws), Status::target_overlap);
+}
+
+TEST(Overlap, Context) {
+  Call call;
+  Context* const context = new (call.barycentrics.data() + 2) Context;
+  call.options.context = context;
+  EXPECT_EQ(render(call.target, call.draws, &call.statistics, call.options), Status::target_overlap);
+  context->~Context();
 }
 
 TEST(Overlap, VisitCoverage) {

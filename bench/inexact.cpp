@@ -13,5 +13,6 @@ bool SUREFILL_BENCH_INEXACT(int width, int height, const float* vertices, std::s
   surefill::Draw draw;
   draw.vertices = {reinterpret_cast<const surefill::Vertex*>(vertices), vertex_count};
   draw.indices = {indices, index_count};
+  draw.depth_mode = surefill::DepthMode::clip;
   return surefill::render(target, {&draw, 1}) == surefill::Status::ok;
 }

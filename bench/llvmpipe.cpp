@@ -81,7 +81,6 @@ class OpenGl : public Llvmpipe {
     glViewport(0, 0, kWidth, kHeight);
     glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     glEnable(GL_DEPTH_TEST);
-    glEnable(GL_DEPTH_CLAMP);
     glDepthFunc(GL_LESS);
     if (glGetError() != GL_NO_ERROR) {
       *why = "OpenGL reports an error";

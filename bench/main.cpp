@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
@@ -25,7 +26,8 @@ namespace surefill::bench {
 namespace {
 
 enum class Output { count, depth, visibility, attributes };
-enum class Mode { plain, grid, over };  // over: conservative, counts alone
+// Depth is clipped, as every renderer has it, except in `unclipped` and `over`, which is conservative: counts alone.
+enum class Mode { plain, unclipped, grid, over };
 constexpr std::size_t kSamples = std::size_t{kWidth} * kHeight;
 
 int threads() {
@@ -45,6 +47,8 @@ const Workload& workload(const std::string& name) {
                                                                  : Placement::free);
   } else if (name[0] == 's' && name[1] == 'p') {
     held = make_spot(std::atoi(placement.c_str()));
+  } else if (name[0] == 'k') {
+    held = make_knot(std::strtoull(placement.c_str(), nullptr, 10));
   } else {
     held = make_small_triangles(std::strtoull(placement.c_str(), nullptr, 10));
   }
@@ -75,6 +79,7 @@ void surefill_draws(benchmark::State& state, const std::string& name, Output out
   target.count = count, target.index = index, target.depth = depth;
   Draw triangles;
   triangles.vertices = work.vertices, triangles.indices = work.indices;
+  if (mode == Mode::plain || mode == Mode::grid) triangles.depth_mode = DepthMode::clip;
   if (mode == Mode::grid) triangles.grid = Grid{};
   if (mode == Mode::over) triangles.conservative = Conservative::over;
   AttributeTarget attribute_target{shaded, 4};
@@ -116,11 +121,11 @@ void llvmpipe_draws(benchmark::State& state, const std::string& name, bool color
 }
 
 // The same on one of Highway's targets.
-void target_draws(benchmark::State& state, const std::string& name, std::int64_t target) {
+void target_draws(benchmark::State& state, const std::string& name, Output output, std::int64_t target) {
   if ((hwy::SupportedTargets() & target) == 0) return state.SkipWithError("this machine has it not");
   hwy::SetSupportedTargetsForTest(target);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
-  surefill_draws(state, name, Output::depth, {});
+  surefill_draws(state, name, output, {});
   hwy::SetSupportedTargetsForTest(0);
   hwy::GetChosenTarget().Update(hwy::SupportedTargets());
 }
@@ -135,9 +140,55 @@ void memory_limit(benchmark::State& state) {
   }
 }
 
+// The least that a call has to do: to write its output once.
+void memory_written(benchmark::State& state) {
+  std::vector<float> depth(kSamples);
+  for (auto _ : state) {
+    std::fill(depth.begin(), depth.end(), 1.0f);
+    benchmark::DoNotOptimize(depth.data());
+    benchmark::ClobberMemory();
+  }
+}
+
+// Draws depth so many times and nothing else, for tools that count instructions. Returns the exit status.
+int draw_only(const char* name, int times) {
+  const Workload& work = workload(name);
+  std::vector<float> depth(kSamples);
+  Target target;
+  target.width = kWidth, target.height = kHeight, target.depth = depth;
+  Draw draw;
+  draw.vertices = work.vertices, draw.indices = work.indices, draw.depth_mode = DepthMode::clip;
+  for (int n = 0; n < times; ++n) {
+    if (render(target, {&draw, 1}) != Status::ok) return 1;
+  }
+  return 0;
+}
+
 template <typename Run>
 void add(const std::string& name, const Run& run) {
   benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
+}
+
+// A workload or mesh, drawn by both.
+void add_both(const std::string& name, const Options& options) {
+  using State = benchmark::State;
+  const auto with = [&](Output output) { return [=](State& state) { surefill_draws(state, name, output, options); }; };
+  const auto on_avx2 = [&](Output output) {
+    return [=](State& state) { target_draws(state, name, output, HWY_AVX2); };
+  };
+  add(name + "/count/surefill", with(Output::count));
+  add(name + "/depth/surefill", with(Output::depth));
+  add(name + "/visibility/surefill", with(Output::visibility));
+  add(name + "/attributes/surefill", with(Output::attributes));
+  add(name + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
+  add(name + "/attributes/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, true); });
+  if (options.threads != 1) return;
+  add(name + "/depth/unclipped",
+      [=](State& state) { surefill_draws(state, name, Output::depth, options, Mode::unclipped); });
+  if ((hwy::SupportedTargets() & (HWY_AVX3 | HWY_AVX3_DL)) == 0) return;  // else it is the row above
+  add(name + "/depth/AVX2", on_avx2(Output::depth));
+  add(name + "/visibility/AVX2", on_avx2(Output::visibility));
+  add(name + "/attributes/AVX2", on_avx2(Output::attributes));
 }
 
 void add_all() {
@@ -146,31 +197,20 @@ void add_all() {
   const bool one = options.threads == 1;
   for (int number = 1; number <= kWorkloads; ++number) {
     const std::string free = "W" + std::to_string(number);
+    add_both(free, options);
+    if (!one) continue;
     for (const std::string& name : {free, free + "/snapped", free + "/aligned"}) {
-      const bool plain = name == free;
-      const auto with = [&](Output output) {
-        return [=](State& state) { surefill_draws(state, name, output, options); };
-      };
-      add(name + "/count/surefill", with(Output::count));
-      add(name + "/depth/surefill", with(Output::depth));
-      if (one) {
-        add(name + "/depth/inexact-coverage",
-            [=](State& state) { inexact_draws(state, name, surefill_bench_inexact_coverage); });
-      }
-      if (!plain) continue;
-      add(name + "/visibility/surefill", with(Output::visibility));
-      add(name + "/attributes/surefill", with(Output::attributes));
-      add(name + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
-      add(name + "/attributes/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, true); });
-      if (!one) continue;
-      add(name + "/depth/grid", [=](State& state) { surefill_draws(state, name, Output::depth, options, Mode::grid); });
-      add(name + "/count/conservative",
-          [=](State& state) { surefill_draws(state, name, Output::count, options, Mode::over); });
-      add(name + "/depth/inexact-depth",
-          [=](State& state) { inexact_draws(state, name, surefill_bench_inexact_depth); });
-      add(name + "/depth/AVX2", [=](State& state) { target_draws(state, name, HWY_AVX2); });
+      if (name != free)
+        add(name + "/depth/surefill", [=](State& state) { surefill_draws(state, name, Output::depth, options); });
+      add(name + "/depth/inexact-coverage",
+          [=](State& state) { inexact_draws(state, name, surefill_bench_inexact_coverage); });
     }
+    add(free + "/depth/grid", [=](State& state) { surefill_draws(state, free, Output::depth, options, Mode::grid); });
+    add(free + "/count/conservative",
+        [=](State& state) { surefill_draws(state, free, Output::count, options, Mode::over); });
+    add(free + "/depth/inexact-depth", [=](State& state) { inexact_draws(state, free, surefill_bench_inexact_depth); });
   }
+  for (const char* const triangles : {"50000", "1000000"}) add_both(std::string("knot/") + triangles, options);
   if (!one) return;
   for (const char* const height : {"135", "270", "540", "1080"}) {
     const std::string name = std::string("spot/") + height;
@@ -179,19 +219,40 @@ void add_all() {
     add(name + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
     add(name + "/attributes/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, true); });
   }
+  static Context context;
   for (const char* const size : {"1000", "10000", "100000", "1000000", "10000000"}) {
     const std::string name = std::string("small/") + size;
     add(name + "/depth/surefill", [=](State& state) { surefill_draws(state, name, Output::depth, options); });
+    add(name + "/depth/context",
+        [=](State& state) { surefill_draws(state, name, Output::depth, {.threads = 1, .context = &context}); });
   }
   add("memory/depth/limit", memory_limit);
+  add("memory/depth/written", memory_written);
+}
+
+// What the numbers are of.
+void add_context() {
+  std::string processor = "unknown", line;
+  for (std::ifstream file("/proc/cpuinfo"); std::getline(file, line);) {
+    if (line.rfind("model name", 0) == 0) processor = line.substr(line.find(':') + 2);
+  }
+  benchmark::AddCustomContext("processor", processor);
+  Statistics statistics;
+  std::uint32_t count;
+  Target target;
+  target.width = target.height = 1, target.count = {&count, 1};
+  if (render(target, {}, &statistics) == Status::ok) benchmark::AddCustomContext("instruction_set", statistics.path);
 }
 
 }  // namespace
 }  // namespace surefill::bench
 
+// surefill_bench --draw NAME TIMES: draws and measures nothing.
 int main(int argc, char** argv) {
+  if (argc == 4 && std::string(argv[1]) == "--draw") return surefill::bench::draw_only(argv[2], std::atoi(argv[3]));
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+  surefill::bench::add_context();
   surefill::bench::add_all();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench/workloads.hpp"
 
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -151,6 +152,35 @@ Workload make_workload(int number, Placement placement) {
 Workload make_small_triangles(std::size_t triangles) {
   Workload workload = random_triangles(triangles, 10, Placement::free);
   workload.name = "10 px x " + std::to_string(triangles);
+  return workload;
+}
+
+Workload make_knot(std::size_t triangles) {
+  const auto around = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 20));
+  const auto along = static_cast<std::uint32_t>(triangles / 2 / around);
+  Workload workload;
+  const auto centre = [](double t) {  // a trefoil
+    return std::array{std::sin(t) + 2 * std::sin(2 * t), std::cos(t) - 2 * std::cos(2 * t), -std::sin(3 * t)};
+  };
+  for (std::uint32_t i = 0; i < along; ++i) {
+    const double t = 2 * std::numbers::pi * i / along;
+    const auto c = centre(t), next = centre(t + 1e-3);
+    const double dx = next[0] - c[0], dy = next[1] - c[1], length = std::hypot(dx, dy);
+    for (std::uint32_t k = 0; k < around; ++k) {
+      const double angle = 2 * std::numbers::pi * k / around, r = 0.6;
+      const double side = r * std::cos(angle), depth = c[2] + r * std::sin(angle), w = 6 + depth;
+      const double x = c[0] - dy / length * side, y = c[1] + dx / length * side;
+      workload.vertices.push_back(vertex(kWidth / 2 + x / w * kHeight * 0.9, kHeight / 2 + y / w * kHeight * 0.9,
+                                         (depth + 2) / 4, w, Placement::free));
+    }
+  }
+  for (std::uint32_t i = 0; i < along; ++i) {
+    for (std::uint32_t k = 0; k < around; ++k) {
+      const std::uint32_t j = (i + 1) % along, n = (k + 1) % around;
+      const std::uint32_t a = i * around + k, b = i * around + n, c = j * around + k, d = j * around + n;
+      workload.indices.insert(workload.indices.end(), {a, b, c, b, d, c});
+    }
+  }
   return workload;
 }
 

@@ -34,6 +34,9 @@ Workload make_workload(int number, Placement placement);
 // `triangles` random triangles of 10 pixels, as W1.
 Workload make_small_triangles(std::size_t triangles);
 
+// A knot of a tube with so many triangles, a closed mesh that fills most of the frame's height; triangles even.
+Workload make_knot(std::size_t triangles);
+
 // The mesh spot, seen whole in a frame of this height in pixels, at the upper left.
 Workload make_spot(int height);
 

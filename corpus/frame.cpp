@@ -3,6 +3,7 @@
 // From a scene to the arguments of surefill::render, and the buffers of its image.
 #include <algorithm>
 
+#include "corpus/outputs.hpp"
 #include "corpus/scene.hpp"
 
 namespace surefill::corpus {
@@ -80,15 +81,7 @@ Frame::Frame(const Scene& scene, const Outputs& outputs) : initial_depth_(scene.
     draw.identifiers = storage.identifiers;
     draw.first_index = from.first_index.value_or(static_cast<std::uint32_t>(triangles_before));
     draw.attributes = storage.attributes;
-    draw.fill_rule = from.fill_rule;
-    draw.front_face = from.front_face;
-    draw.cull = from.cull;
-    draw.depth_mode = from.depth_mode;
-    draw.depth_write = from.depth_write;
-    draw.conservative = from.conservative;
-    draw.scissor = from.scissor;
-    draw.grid = from.grid;
-    draw.culling_box = from.culling_box;
+    draw.state() = from.state();
     triangles_before += from.triangles.size();
   }
 
@@ -104,18 +97,14 @@ Frame::Frame(const Scene& scene, const Outputs& outputs) : initial_depth_(scene.
   target_.initial_depth = initial_depth_;
 
   // A conservative draw leaves the counts as the frame's only output (M4).
-  const bool count_only = std::any_of(scene.draws.begin(), scene.draws.end(),
-                                      [](const SceneDraw& draw) { return draw.conservative != Conservative::none; });
-  if (outputs.count) image_.count.resize(total);
-  target_.count = image_.count;
-  if (count_only) return;
-  if (outputs.index) image_.index.resize(total);
-  target_.index = image_.index;
-  if (outputs.depth) image_.depth.resize(total);
-  target_.depth = image_.depth;
-  if (outputs.barycentrics) image_.barycentrics.resize(3 * total);
-  target_.barycentrics = image_.barycentrics;
-  if (!outputs.attributes) return;
+  const bool conservative = std::any_of(scene.draws.begin(), scene.draws.end(),
+                                        [](const SceneDraw& draw) { return draw.conservative != Conservative::none; });
+  for_each_output([&](const auto& output) {
+    if (!(outputs.*output.asked) || (conservative && !output.when_conservative)) return;
+    (image_.*output.image).resize(output.elements * total);
+    target_.*output.target = image_.*output.image;
+  });
+  if (!outputs.attributes || conservative) return;
   image_.attributes.reserve(scene.attributes.size());
   for (const SceneAttribute& attribute : scene.attributes) {
     std::vector<float>& values = image_.attributes.emplace_back(attribute.components * total);

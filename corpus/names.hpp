@@ -6,6 +6,7 @@
 
 #include <array>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 
 #include "surefill/surefill.hpp"
@@ -43,6 +44,27 @@ inline constexpr Names<ClipDepth, 2> kClipDepthNames{
     {{ClipDepth::zero_to_one, "zero-to-one"}, {ClipDepth::minus_one_to_one, "minus-one-to-one"}}};
 inline constexpr Names<ClipY, 2> kClipYNames{{{ClipY::up, "y-up"}, {ClipY::down, "y-down"}}};
 inline constexpr Names<bool, 2> kSwitchNames{{{true, "on"}, {false, "off"}}};
+
+// The table of an enumeration, found by its type.
+template <typename Enum>
+constexpr const auto& names_of() {
+  if constexpr (std::is_same_v<Enum, FillRule>) {
+    return kFillRuleNames;
+  } else if constexpr (std::is_same_v<Enum, FrontFace>) {
+    return kFrontFaceNames;
+  } else if constexpr (std::is_same_v<Enum, Cull>) {
+    return kCullNames;
+  } else if constexpr (std::is_same_v<Enum, DepthMode>) {
+    return kDepthModeNames;
+  } else if constexpr (std::is_same_v<Enum, Conservative>) {
+    return kConservativeNames;
+  } else if constexpr (std::is_same_v<Enum, GridRounding>) {
+    return kGridRoundingNames;
+  } else {
+    static_assert(std::is_same_v<Enum, bool>);
+    return kSwitchNames;
+  }
+}
 
 }  // namespace surefill::corpus
 

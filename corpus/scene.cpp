@@ -56,21 +56,17 @@ bool same(const Viewport& a, const Viewport& b) {
          a.clip_y == b.clip_y;
 }
 
-bool same(const Scissor& a, const Scissor& b) {
-  return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
-}
-
-bool same(const Grid& a, const Grid& b) {
-  return a.bits == b.bits && a.offset_x == b.offset_x && a.offset_y == b.offset_y && a.rounding == b.rounding;
-}
-
 template <typename Range>
 bool same_elements(const Range& a, const Range& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return same(x, y); });
 }
 
-bool same(const std::array<Vertex, 8>& a, const std::array<Vertex, 8>& b) {
-  return same_elements(a, b);
+// The state with the culling box by its bits.
+bool same(const DrawState& a, const DrawState& b) {
+  DrawState x = a, y = b;
+  x.culling_box.reset(), y.culling_box.reset();
+  return x == y && a.culling_box.has_value() == b.culling_box.has_value() &&
+         (!a.culling_box || same_elements(*a.culling_box, *b.culling_box));
 }
 
 template <typename Value>
@@ -81,10 +77,7 @@ bool same_optional(const std::optional<Value>& a, const std::optional<Value>& b)
 bool same(const SceneDraw& a, const SceneDraw& b) {
   return same_optional(a.viewport, b.viewport) && same_elements(a.vertices, b.vertices) &&
          same_elements(a.triangles, b.triangles) && same_elements(a.points, b.points) &&
-         same_elements(a.lines, b.lines) && a.first_index == b.first_index && a.fill_rule == b.fill_rule &&
-         a.front_face == b.front_face && a.cull == b.cull && a.depth_mode == b.depth_mode &&
-         a.depth_write == b.depth_write && a.conservative == b.conservative && same_optional(a.scissor, b.scissor) &&
-         same_optional(a.grid, b.grid) && same_optional(a.culling_box, b.culling_box);
+         same_elements(a.lines, b.lines) && a.first_index == b.first_index && same(a.state(), b.state());
 }
 
 std::string error_text(int code) {

@@ -50,22 +50,13 @@ struct SceneVertex {
 };
 
 // `viewport` set: the vertices are clip coordinates and pass through `to_pixel` before they are drawn.
-struct SceneDraw {
+struct SceneDraw : DrawState {
   std::optional<Viewport> viewport;
   std::vector<SceneVertex> vertices;
   std::vector<SceneTriangle> triangles;  // all have an identifier, or none
   std::vector<ScenePoint> points;
   std::vector<SceneLine> lines;
   std::optional<std::uint32_t> first_index;  // unset: the number of triangles in the draws before this one
-  FillRule fill_rule = FillRule::top_left;
-  FrontFace front_face = FrontFace::clockwise;
-  Cull cull = Cull::none;
-  DepthMode depth_mode = DepthMode::none;
-  bool depth_write = true;
-  Conservative conservative = Conservative::none;
-  std::optional<Scissor> scissor;
-  std::optional<Grid> grid;
-  std::optional<std::array<Vertex, 8>> culling_box;
 };
 
 struct Scene {

@@ -10,7 +10,7 @@
 #include <span>
 #include <utility>
 
-#include "corpus/names.hpp"
+#include "corpus/draw_fields.hpp"
 #include "corpus/scene.hpp"
 #include "corpus/text_file.hpp"
 #include "engine/src/planted.hpp"
@@ -59,13 +59,13 @@ class Reader {
   using Seen = std::bitset<32>;
   struct Keyword {
     std::string_view name;
-    std::string_view form;    // of the fields, for messages
+    std::string form;         // of the fields, for messages
     std::size_t least, most;  // number of fields
     bool repeatable;
     void (Reader::*read)();
   };
-  static const Keyword kFrameKeywords[6];
-  static const Keyword kDrawKeywords[15];
+  static const std::array<Keyword, 6> kFrameKeywords;
+  static const std::array<Keyword, 6> kDrawKeywords;
 
   [[noreturn]] void fail_at(std::size_t line, const std::string& cause) const {
     throw SceneError(std::string(file_) + ':' + std::to_string(line) + ": " + cause);
@@ -132,20 +132,23 @@ class Reader {
     const auto keyword =
         std::find_if(keywords.begin(), keywords.end(), [&](const Keyword& k) { return k.name == fields_[0]; });
     if (keyword == keywords.end()) fail("unknown keyword " + quoted(fields_[0]));
-    const auto number = static_cast<std::size_t>(keyword - keywords.begin());
-    if (seen[number] && !keyword->repeatable) fail(std::string(keyword->name) + " is given twice");
+    check_fields(*keyword, static_cast<std::size_t>(keyword - keywords.begin()), seen);
+    (this->*keyword->read)();
+  }
+
+  // Fails where the keyword stands a second time, or with a wrong number of fields.
+  void check_fields(const Keyword& keyword, std::size_t number, Seen& seen) const {
+    if (seen[number] && !keyword.repeatable) fail(std::string(keyword.name) + " is given twice");
     seen[number] = true;
     const std::size_t count = fields_.size() - 1;
-    if (count < keyword->least || count > keyword->most) {
-      std::string expected = std::to_string(keyword->least);
-      if (keyword->most == kAnyCount)
-        expected += " or more";
-      else if (keyword->most > keyword->least)
-        expected += " to " + std::to_string(keyword->most);
-      fail(std::string(keyword->name) + " " + std::string(keyword->form) + ": " + expected +
-           (expected == "1" ? " field expected, " : " fields expected, ") + given());
-    }
-    (this->*keyword->read)();
+    if (count >= keyword.least && count <= keyword.most) return;
+    std::string expected = std::to_string(keyword.least);
+    if (keyword.most == kAnyCount)
+      expected += " or more";
+    else if (keyword.most > keyword.least)
+      expected += " to " + std::to_string(keyword.most);
+    fail(std::string(keyword.name) + " " + keyword.form + ": " + expected +
+         (expected == "1" ? " field expected, " : " fields expected, ") + given());
   }
 
   std::string given() const { return std::to_string(fields_.size() - 1) + " given"; }
@@ -302,7 +305,7 @@ class Reader {
     while (true) {
       if (!next_line()) fail("the draw of line " + std::to_string(begin) + " has no end");
       if (fields_[0] == "end") break;
-      dispatch(kDrawKeywords, seen);
+      if (!read_state(seen)) dispatch(kDrawKeywords, seen);
     }
     if (fields_.size() != 1) fail("end: 0 fields expected, " + given());
     check_draw();
@@ -336,35 +339,47 @@ class Reader {
     draw().viewport = viewport;
   }
 
-  void read_fill_rule() { draw().fill_rule = word(fields_[1], kFillRuleNames); }
-  void read_front_face() { draw().front_face = word(fields_[1], kFrontFaceNames); }
-  void read_cull() { draw().cull = word(fields_[1], kCullNames); }
-  void read_depth_mode() { draw().depth_mode = word(fields_[1], kDepthModeNames); }
-  void read_depth_write() { draw().depth_write = word(fields_[1], kSwitchNames); }
-
-  void read_conservative() {
-    conservative_line_ = line_;
-    draw().conservative = word(fields_[1], kConservativeNames);
+  // A field of the draw's state, where the keyword is one. Its row is numbered after the other keywords.
+  bool read_state(Seen& seen) {
+    std::size_t number = kDrawKeywords.size();
+    return any_draw_field([&](const auto& field) {
+      ++number;
+      if (field.name != fields_[0]) return false;
+      using Value = std::remove_cvref_t<decltype(draw().*field.member)>;
+      if constexpr (kIsOptional<Value>) {
+        const std::size_t parts = parts_of<typename Value::value_type>();
+        check_fields({field.name, std::string(field.form), parts, parts, false, nullptr}, number, seen);
+        read_parts((draw().*field.member).emplace());
+      } else {
+        check_fields({field.name, form_of<Value>(), 1, 1, false, nullptr}, number, seen);
+        draw().*field.member = word(fields_[1], names_of<Value>());
+        if constexpr (std::is_same_v<Value, Conservative>) conservative_line_ = line_;
+      }
+      return true;
+    });
   }
 
-  void read_scissor() {
-    std::array<int, 4> edge{};
-    for (std::size_t i = 0; i < 4; ++i) {
-      edge[i] = integer(fields_[i + 1], std::numeric_limits<int>::min(), std::numeric_limits<int>::max());
-    }
-    draw().scissor = Scissor{edge[0], edge[1], edge[2], edge[3]};
+  template <typename Enum>
+  static std::string form_of() {
+    std::string form;
+    for (const auto& [value, name] : names_of<Enum>()) form += (form.empty() ? "" : "|") + std::string(name);
+    return form;
   }
 
-  void read_grid() {
-    draw().grid = Grid{integer(fields_[1], 0, 12), integer(fields_[2], 0, 15), integer(fields_[3], 0, 15),
-                       word(fields_[4], kGridRoundingNames)};
-  }
-
-  void read_culling_box() {
-    std::array<Vertex, 8>& box = draw().culling_box.emplace();
-    for (std::size_t i = 0; i < box.size(); ++i) {
-      box[i] = {real(fields_[4 * i + 1]), real(fields_[4 * i + 2]), real(fields_[4 * i + 3]), real(fields_[4 * i + 4])};
-    }
+  template <typename Structure>
+  void read_parts(Structure& value) {
+    std::size_t field = 1;
+    for_each_part(value, [&](auto& part, const auto&... range) {
+      using Part = std::remove_cvref_t<decltype(part)>;
+      const std::string_view text = fields_[field++];
+      if constexpr (std::is_enum_v<Part>) {
+        part = word(text, names_of<Part>());
+      } else if constexpr (std::is_same_v<Part, float>) {
+        part = real(text);
+      } else {
+        (..., (part = integer(text, range.least, range.most)));
+      }
+    });
   }
 
   void read_first_index() { draw().first_index = integer<std::uint32_t>(fields_[1], 0, kNoTriangle); }
@@ -412,32 +427,23 @@ class Reader {
   Scene scene_;
 };
 
-const Reader::Keyword Reader::kFrameKeywords[6] = {
+const std::array<Reader::Keyword, 6> Reader::kFrameKeywords{{
     {"target", "WIDTH HEIGHT", 2, 2, false, &Reader::read_target},
     {"samples", "N", 1, 1, false, &Reader::read_samples},
     {"depth-test", "less|greater", 1, 1, false, &Reader::read_depth_test},
     {"attribute-location", "centre|centroid", 1, 1, false, &Reader::read_attribute_location},
     {"initial-depth", "Z...", 1, kAnyCount, true, &Reader::read_initial_depth},
     {"attribute", "NAME COMPONENTS INTERPOLATION", 3, 3, true, &Reader::read_attribute},
-};
+}};
 
-const Reader::Keyword Reader::kDrawKeywords[15] = {
+const std::array<Reader::Keyword, 6> Reader::kDrawKeywords{{
     {"viewport", "X Y WIDTH HEIGHT NEAR FAR [DEPTH-RANGE [Y-DIRECTION]]", 6, 8, false, &Reader::read_viewport},
-    {"fill-rule", "RULE", 1, 1, false, &Reader::read_fill_rule},
-    {"front-face", "clockwise|counter-clockwise", 1, 1, false, &Reader::read_front_face},
-    {"cull", "none|front|back", 1, 1, false, &Reader::read_cull},
-    {"depth-mode", "none|clip|clamp", 1, 1, false, &Reader::read_depth_mode},
-    {"depth-write", "on|off", 1, 1, false, &Reader::read_depth_write},
-    {"conservative", "none|over|inner", 1, 1, false, &Reader::read_conservative},
-    {"scissor", "X0 Y0 X1 Y1", 4, 4, false, &Reader::read_scissor},
-    {"grid", "BITS OFFSET_X OFFSET_Y ROUNDING", 4, 4, false, &Reader::read_grid},
-    {"culling-box", "X Y Z W of eight corners", 32, 32, false, &Reader::read_culling_box},
     {"first-index", "N", 1, 1, false, &Reader::read_first_index},
     {"vertex", "X Y Z W [VALUES]", 4, kAnyCount, true, &Reader::read_vertex},
     {"triangle", "I J K [id N]", 3, 5, true, &Reader::read_triangle},
     {"point", "I [SIZE]", 1, 2, true, &Reader::read_point},
     {"line", "I J [WIDTH]", 2, 3, true, &Reader::read_line},
-};
+}};
 
 }  // namespace
 

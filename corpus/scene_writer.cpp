@@ -5,7 +5,7 @@
 #include <charconv>
 #include <cmath>
 
-#include "corpus/names.hpp"
+#include "corpus/draw_fields.hpp"
 #include "corpus/scene.hpp"
 
 namespace surefill::corpus {
@@ -14,7 +14,6 @@ namespace {
 class Writer {
  public:
   std::string write(const Scene& scene) {
-    const SceneDraw defaults;
     write_comment(scene.comment);
     line("surefill-scene", kSceneVersion);
     line("target", scene.width, scene.height);
@@ -27,7 +26,7 @@ class Writer {
     for (const SceneAttribute& attribute : scene.attributes) {
       line("attribute", attribute.name, attribute.components, name(attribute.interpolation, kInterpolationNames));
     }
-    for (const SceneDraw& draw : scene.draws) write_draw(draw, defaults);
+    for (const SceneDraw& draw : scene.draws) write_draw(draw);
     return std::move(text_);
   }
 
@@ -57,26 +56,12 @@ class Writer {
     if (!values.empty()) text_ += '\n';
   }
 
-  void write_draw(const SceneDraw& draw, const SceneDraw& defaults) {
+  void write_draw(const SceneDraw& draw) {
     text_ += "\ndraw\n";
     indent_ = "  ";
     if (draw.viewport) write_viewport(*draw.viewport);
-    if (draw.fill_rule != defaults.fill_rule) line("fill-rule", name(draw.fill_rule, kFillRuleNames));
-    if (draw.front_face != defaults.front_face) line("front-face", name(draw.front_face, kFrontFaceNames));
-    if (draw.cull != defaults.cull) line("cull", name(draw.cull, kCullNames));
-    if (draw.depth_mode != defaults.depth_mode) line("depth-mode", name(draw.depth_mode, kDepthModeNames));
-    if (draw.depth_write != defaults.depth_write) line("depth-write", name(draw.depth_write, kSwitchNames));
-    if (draw.conservative != defaults.conservative) line("conservative", name(draw.conservative, kConservativeNames));
-    if (draw.scissor) line("scissor", draw.scissor->x0, draw.scissor->y0, draw.scissor->x1, draw.scissor->y1);
-    if (draw.grid) {
-      line("grid", draw.grid->bits, draw.grid->offset_x, draw.grid->offset_y,
-           name(draw.grid->rounding, kGridRoundingNames));
-    }
-    if (draw.culling_box) {
-      begin("culling-box");
-      for (const Vertex& corner : *draw.culling_box) append_all(corner.x, corner.y, corner.z, corner.w);
-      text_ += '\n';
-    }
+    for_each_draw_field(
+        [&](const auto& field) { write_field(field.name, draw.*field.member, DrawState{}.*field.member); });
     if (draw.first_index) line("first-index", *draw.first_index);
     for (const SceneVertex& vertex : draw.vertices) {
       begin("vertex");
@@ -104,6 +89,27 @@ class Writer {
     }
     indent_ = "";
     text_ += "end\n";
+  }
+
+  template <typename Value>
+  void write_field(std::string_view keyword, const Value& value, const Value& by_default) {
+    if constexpr (kIsOptional<Value>) {
+      if (!value) return;
+      begin(keyword);
+      for_each_part(*value, [&](const auto& part, const auto&...) { append_part(part); });
+      text_ += '\n';
+    } else if (value != by_default) {
+      line(keyword, name(value, names_of<Value>()));
+    }
+  }
+
+  template <typename Part>
+  void append_part(const Part& part) {
+    if constexpr (std::is_enum_v<Part>) {
+      append(name(part, names_of<Part>()));
+    } else {
+      append(part);
+    }
   }
 
   void write_viewport(const Viewport& viewport) {

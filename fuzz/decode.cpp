@@ -8,6 +8,8 @@
 #include <string>
 #include <utility>
 
+#include "corpus/draw_fields.hpp"
+
 namespace surefill::fuzz {
 namespace {
 
@@ -24,6 +26,7 @@ class ByteWriter {
     for (int shift = 0; shift < 32; shift += 8) byte((value >> shift) & 0xFFu);
   }
   void real(float value) { word(std::bit_cast<std::uint32_t>(value)); }
+  void append(const Bytes& bytes) { bytes_.insert(bytes_.end(), bytes.begin(), bytes.end()); }
   Bytes take() { return std::move(bytes_); }
 
  private:
@@ -67,17 +70,18 @@ std::uint32_t log2_samples(const Scene& scene) {
   return static_cast<std::uint32_t>(std::countr_zero(static_cast<unsigned>(scene.samples)));
 }
 
-// Fill rule, front face, culling and depth mode.
-template <typename State>
-void set_state(State& draw, std::uint32_t byte) {
-  draw.fill_rule = field<FillRule>(byte, 0, 8);
-  draw.front_face = field<FrontFace>(byte, 3, 2);
-  draw.cull = field<Cull>(byte, 4, 3);
-  draw.depth_mode = field<DepthMode>(byte, 6, 3);
+// The words of a draw's state: the enumerations and switches, a byte each, modulo the number of their values.
+template <typename Value>
+void set_choice(ByteReader& in, Value& value) {
+  constexpr const auto& names = corpus::names_of<Value>();
+  value = names[in.below(static_cast<std::uint32_t>(names.size()))].first;
 }
 
-std::uint32_t state_byte(const SceneDraw& draw) {
-  return bits(draw.fill_rule, 0) | bits(draw.front_face, 3) | bits(draw.cull, 4) | bits(draw.depth_mode, 6);
+template <typename Value>
+std::uint32_t choice_byte(const Value& value) {
+  constexpr const auto& names = corpus::names_of<Value>();
+  const auto found = std::find_if(names.begin(), names.end(), [&](const auto& row) { return row.first == value; });
+  return static_cast<std::uint32_t>(found - names.begin()) % static_cast<std::uint32_t>(names.size());
 }
 
 std::string attribute_name(std::size_t k) {
@@ -110,6 +114,12 @@ std::optional<std::uint32_t> edge_byte(int edge) {
   return static_cast<std::uint8_t>(edge);
 }
 
+// The state of one triangle: what a plain draw has.
+void set_state(ByteReader& in, OneTriangle& triangle) {
+  set_choice(in, triangle.fill_rule), set_choice(in, triangle.front_face);
+  set_choice(in, triangle.cull), set_choice(in, triangle.depth_mode);
+}
+
 Grid decode_grid(ByteReader& in) {
   Grid grid;
   grid.bits = static_cast<int>(in.below(13));
@@ -137,25 +147,33 @@ std::optional<std::array<Vertex, 8>> box_of(const SceneDraw& draw) {
   return box;
 }
 
-// What a draw has, in its first two bytes.
+// What a draw has, in its first two bytes: these, and from kFirstOptional on the optional fields of its state.
 enum DrawFlag : std::uint32_t {
   kHasViewport = 1,
   kClipDepthBelow = 2,  // -1..1
   kClipYDown = 4,
-  kHasScissor = 8,
-  kHasGrid = 16,
-  kHasCullingBox = 32,
-  kHasIdentifiers = 64,
-  kHasFirstIndex = 128,
+  kHasIdentifiers = 8,
+  kHasFirstIndex = 16,
+  kFirstOptional = 32,
 };
+
+void decode_part(ByteReader& in, Scissor& scissor) {
+  for (int* edge : {&scissor.x0, &scissor.y0, &scissor.x1, &scissor.y1}) *edge = edge_of(in.byte());
+}
+void decode_part(ByteReader& in, Grid& grid) {
+  grid = decode_grid(in);
+}
+void decode_part(ByteReader&, std::array<Vertex, 8>&) {}  // it is made of the vertices, at the end
 
 SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
   SceneDraw draw;
-  const std::uint32_t flags = in.byte();
-  set_state(draw, in.byte());
-  const std::uint32_t more = in.byte();  // bit 0: depth write off, bits 1-2: conservative
-  draw.depth_write = (more & 1u) == 0;
-  if (samples == 1) draw.conservative = field<Conservative>(more, 1, 3);
+  std::uint32_t flags = in.byte();
+  flags |= std::uint32_t{in.byte()} << 8;
+  corpus::for_each_draw_field([&](const auto& field) {
+    using Value = std::remove_cvref_t<decltype(draw.*field.member)>;
+    if constexpr (!corpus::kIsOptional<Value>) set_choice(in, draw.*field.member);
+  });
+  if (samples > 1) draw.conservative = Conservative::none;
   if (draw.conservative != Conservative::none) draw.depth_mode = DepthMode::none;  // M4
   draw.vertices.resize(in.below(kMaxVertices + 1));
   std::uint32_t triangles = in.below(kMaxTriangles + 1);
@@ -170,13 +188,15 @@ SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
     viewport.clip_depth = (flags & kClipDepthBelow) != 0 ? ClipDepth::minus_one_to_one : ClipDepth::zero_to_one;
     viewport.clip_y = (flags & kClipYDown) != 0 ? ClipY::down : ClipY::up;
   }
-  if ((flags & kHasScissor) != 0) {
-    Scissor& scissor = draw.scissor.emplace();
-    for (int* edge : {&scissor.x0, &scissor.y0, &scissor.x1, &scissor.y1}) *edge = edge_of(in.byte());
-  }
-  if ((flags & kHasGrid) != 0 && draw.conservative == Conservative::none) {
-    draw.grid = decode_grid(in);
-  }
+  std::uint32_t flag = kFirstOptional;
+  corpus::for_each_draw_field([&](const auto& field) {
+    using Value = std::remove_cvref_t<decltype(draw.*field.member)>;
+    if constexpr (corpus::kIsOptional<Value>) {
+      if ((flags & flag) != 0) decode_part(in, (draw.*field.member).emplace());
+      flag <<= 1;
+    }
+  });
+  if (draw.conservative != Conservative::none) draw.grid.reset();  // M4
   if ((flags & kHasFirstIndex) != 0) draw.first_index = std::min(in.word(), kNoTriangle - triangles);
   for (SceneVertex& vertex : draw.vertices) {
     for (float* number : {&vertex.x, &vertex.y, &vertex.z, &vertex.w}) *number = in.real();
@@ -188,7 +208,7 @@ SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
     for (std::uint32_t& v : triangle.vertices) v = in.below(static_cast<std::uint32_t>(draw.vertices.size()));
     if ((flags & kHasIdentifiers) != 0) triangle.identifier = std::min(in.word(), kNoTriangle - 1);  // B5
   }
-  if ((flags & kHasCullingBox) != 0) draw.culling_box = box_of(draw);
+  if (draw.culling_box) draw.culling_box = box_of(draw);
   return draw;
 }
 
@@ -211,39 +231,55 @@ bool draw_fits(const SceneDraw& draw) {
   return true;
 }
 
+bool encode_part(ByteWriter& out, const Scissor& scissor) {
+  for (const int edge : {scissor.x0, scissor.y0, scissor.x1, scissor.y1}) {
+    const std::optional<std::uint32_t> byte = edge_byte(edge);
+    if (!byte) return false;
+    out.byte(*byte);
+  }
+  return true;
+}
+bool encode_part(ByteWriter& out, const Grid& grid) {
+  encode_grid(out, grid);
+  return true;
+}
+bool encode_part(ByteWriter&, const std::array<Vertex, 8>&) {
+  return true;
+}
+
 bool encode_draw(ByteWriter& out, const SceneDraw& draw) {
   if (!draw_fits(draw)) return false;
   const bool identifiers = !draw.triangles.empty() && draw.triangles[0].identifier.has_value();
-  std::uint32_t flags = 0;
+  std::uint32_t flags = 0, flag = kFirstOptional;
   if (draw.viewport) {
     flags |= kHasViewport;
     if (draw.viewport->clip_depth == ClipDepth::minus_one_to_one) flags |= kClipDepthBelow;
     if (draw.viewport->clip_y == ClipY::down) flags |= kClipYDown;
   }
-  if (draw.scissor) flags |= kHasScissor;
-  if (draw.grid) flags |= kHasGrid;
-  if (draw.culling_box) flags |= kHasCullingBox;
   if (identifiers) flags |= kHasIdentifiers;
   if (draw.first_index) flags |= kHasFirstIndex;
-  out.byte(flags);
-  out.byte(state_byte(draw));
-  out.byte((draw.depth_write ? 0u : 1u) | bits(draw.conservative, 1));
+  ByteWriter choices, parts;
+  bool fits = true;
+  corpus::for_each_draw_field([&](const auto& field) {
+    const auto& value = draw.*field.member;
+    using Value = std::remove_cvref_t<decltype(value)>;
+    if constexpr (corpus::kIsOptional<Value>) {
+      if (value) flags |= flag, fits = encode_part(parts, *value) && fits;
+      flag <<= 1;
+    } else {
+      choices.byte(choice_byte(value));
+    }
+  });
+  if (!fits) return false;
+  out.byte(flags & 0xFFu), out.byte(flags >> 8);
+  out.append(choices.take());
   out.byte(static_cast<std::uint32_t>(draw.vertices.size()));
   out.byte(static_cast<std::uint32_t>(draw.triangles.size()));
   if (draw.viewport) {
     const Viewport& v = *draw.viewport;
     for (const float number : {v.x, v.y, v.width, v.height, v.near_depth, v.far_depth}) out.real(number);
   }
-  if (draw.scissor) {
-    for (const int edge : {draw.scissor->x0, draw.scissor->y0, draw.scissor->x1, draw.scissor->y1}) {
-      const std::optional<std::uint32_t> byte = edge_byte(edge);
-      if (!byte) return false;
-      out.byte(*byte);
-    }
-  }
-  if (draw.grid) {
-    encode_grid(out, *draw.grid);
-  }
+  out.append(parts.take());
   if (draw.first_index) out.word(*draw.first_index);
   for (const SceneVertex& vertex : draw.vertices) {
     for (const float number : {vertex.x, vertex.y, vertex.z, vertex.w}) out.real(number);
@@ -274,9 +310,9 @@ OneTriangle decode_one(std::span<const std::uint8_t> bytes, bool with_grid) {
   for (Vertex& vertex : triangle.vertices) {
     for (float* number : {&vertex.x, &vertex.y, &vertex.z, &vertex.w}) *number = in.real();
   }
-  const std::uint32_t size = in.byte(), state = in.byte(), frame = in.byte();
+  const std::uint32_t size = in.byte(), frame = in.byte();
   set_size(triangle, size, (frame & 7u) % 5u);
-  set_state(triangle, state);
+  set_state(in, triangle);
   triangle.depth_test = field<DepthTest>(frame, 3, 2);
   triangle.attribute_location = field<AttributeLocation>(frame, 4, 2);
   const std::uint32_t interpolation = (frame >> 5) & 3u;
@@ -295,11 +331,7 @@ Scene scene_of(const OneTriangle& triangle) {
   scene.attribute_location = triangle.attribute_location;
   if (triangle.interpolation) scene.attributes.push_back({attribute_name(0), 1, *triangle.interpolation});
   SceneDraw& draw = scene.draws.emplace_back();
-  draw.fill_rule = triangle.fill_rule;
-  draw.front_face = triangle.front_face;
-  draw.cull = triangle.cull;
-  draw.depth_mode = triangle.depth_mode;
-  draw.grid = triangle.grid;
+  draw.state() = triangle.state();
   draw.triangles.push_back({{0, 1, 2}, {}});
   for (std::size_t i = 0; i < 3; ++i) {
     const Vertex& v = triangle.vertices[i];
@@ -336,8 +368,11 @@ std::optional<Bytes> encode_one(const Scene& scene, bool with_grid) {
   const std::uint32_t interpolation =
       scene.attributes.empty() ? 3u : static_cast<std::uint32_t>(scene.attributes[0].interpolation);
   out.byte(size_byte(scene));
-  out.byte(state_byte(draw));
   out.byte(log2_samples(scene) | bits(scene.depth_test, 3) | bits(scene.attribute_location, 4) | interpolation << 5);
+  for (const std::uint32_t choice : {choice_byte(draw.fill_rule), choice_byte(draw.front_face), choice_byte(draw.cull),
+                                     choice_byte(draw.depth_mode)}) {
+    out.byte(choice);
+  }
   for (const SceneVertex& vertex : draw.vertices) out.real(scene.attributes.empty() ? 0.0f : vertex.attributes[0]);
   if (with_grid) encode_grid(out, *draw.grid);
   return out.take();
@@ -457,11 +492,8 @@ std::vector<Scene> single_triangles(const Scene& scene) {
       if (!scene.attributes.empty())
         single.attributes.push_back({attribute_name(0), 1, scene.attributes[0].interpolation});
       SceneDraw& own = single.draws.emplace_back();
-      own.fill_rule = draw.fill_rule;
-      own.front_face = draw.front_face;
-      own.cull = draw.cull;
-      own.depth_mode = draw.depth_mode;
-      own.grid = draw.grid;
+      own.fill_rule = draw.fill_rule, own.front_face = draw.front_face, own.cull = draw.cull;
+      own.depth_mode = draw.depth_mode, own.grid = draw.grid;
       own.triangles.push_back({{0, 1, 2}, {}});
       for (const std::uint32_t v : triangle.vertices) {
         const SceneVertex& from = draw.vertices[v];

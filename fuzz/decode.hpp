@@ -40,14 +40,14 @@ inline constexpr int kMaxSide[] = {16, 11, 8, 5, 4};
 // One triangle, with at most one attribute of one component ("a0"):
 //   0..47  X, Y, Z, W of the vertices 0, 1, 2; raw bits
 //   48     width - 1 (low four bits) and height - 1, each modulo the largest side
-//   49     bits 0-2 fill rule, 3 front face, 4-5 culling, 6-7 depth mode (3 is none)
-//   50     bits 0-2 log2(samples) modulo 5, 3 depth test, 4 attribute location, 5-6 interpolation (3: no attribute)
-//   51..62 the attribute at the vertices 0, 1, 2; raw bits
+//   49     bits 0-2 log2(samples) modulo 5, 3 depth test, 4 attribute location, 5-6 interpolation (3: no attribute)
+//   50..53 fill rule, front face, culling, depth mode, each modulo the number of its values
+//   54..65 the attribute at the vertices 0, 1, 2; raw bits
 // and under Grid also
-//   63     bits modulo 13
-//   64     offset_x (low four bits) and offset_y
-//   65     rounding modulo 3
-inline constexpr std::size_t kTriangleBytes = 63, kGridTriangleBytes = 66;
+//   66     bits modulo 13
+//   67     offset_x (low four bits) and offset_y
+//   68     rounding modulo 3
+inline constexpr std::size_t kTriangleBytes = 66, kGridTriangleBytes = 69;
 corpus::Scene decode_triangle(std::span<const std::uint8_t> bytes);
 corpus::Scene decode_grid_triangle(std::span<const std::uint8_t> bytes);
 
@@ -56,18 +56,13 @@ std::optional<Bytes> encode_triangle(const corpus::Scene& scene);
 std::optional<Bytes> encode_grid_triangle(const corpus::Scene& scene);
 
 // The same without heap, which under the address sanitizer costs more than the oracle.
-struct OneTriangle {
+struct OneTriangle : DrawState {
   std::array<Vertex, 3> vertices{};
   std::array<float, 3> attribute{};
   std::optional<Interpolation> interpolation;  // none: no attribute
   int width = 1, height = 1, samples = 1;
-  FillRule fill_rule{};
-  FrontFace front_face{};
-  Cull cull{};
-  DepthMode depth_mode{};
   DepthTest depth_test{};
   AttributeLocation attribute_location{};
-  std::optional<Grid> grid;
 };
 OneTriangle decode_one(std::span<const std::uint8_t> bytes, bool with_grid);
 corpus::Scene scene_of(const OneTriangle& triangle);

@@ -46,11 +46,7 @@ class Case {
     draw_.vertices = triangle.vertices;
     draw_.indices = kIndices;
     if (triangle.interpolation) draw_.attributes = {&array_, 1};
-    draw_.fill_rule = triangle.fill_rule;
-    draw_.front_face = triangle.front_face;
-    draw_.cull = triangle.cull;
-    draw_.depth_mode = triangle.depth_mode;
-    draw_.grid = triangle.grid;
+    draw_.state() = triangle.state();
     choose_samples();
   }
 

@@ -299,12 +299,8 @@ properties::Renderer model_renderer(const Rival& rival) {
 corpus::Scene scene_under_model(corpus::Scene scene, const surefill_adapter_info& info) {
   for (corpus::SceneDraw& draw : scene.draws) {
     Draw plain;
-    plain.fill_rule = draw.fill_rule;
-    plain.grid = draw.grid;
-    plain.conservative = draw.conservative;
-    const std::vector<Draw> under = under_model({&plain, 1}, info);
-    draw.fill_rule = under[0].fill_rule;
-    draw.grid = under[0].grid;
+    plain.state() = draw.state();
+    draw.state() = under_model({&plain, 1}, info)[0].state();
   }
   return scene;
 }

@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "corpus/outputs.hpp"
 #include "corpus/scene.hpp"
 #include "properties/generators/generators.hpp"
 #include "properties/machinery/compare.hpp"
@@ -55,10 +56,7 @@ std::string hash_of(const corpus::Scene& scene, const Options& options) {
   if (status != Status::ok) return status_text(status);
   const corpus::Image& image = frame.image();
   Hash hash;
-  hash.add(image.count);
-  hash.add(image.index);
-  hash.add(image.depth);
-  hash.add(image.barycentrics);
+  corpus::for_each_output([&](const auto& output) { hash.add(image.*output.image); });
   for (const auto& attribute : image.attributes) hash.add(attribute);
   return hash.text();
 }

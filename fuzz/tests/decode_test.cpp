@@ -119,10 +119,10 @@ TEST(DecodeTriangle, TheFormIsStable) {
     }
   };
   for (std::size_t i = 0; i < 12; ++i) put(4 * i, static_cast<float>(i) + 0.5f);
-  for (std::size_t i = 0; i < 3; ++i) put(51 + 4 * i, -static_cast<float>(i));
+  for (std::size_t i = 0; i < 3; ++i) put(54 + 4 * i, -static_cast<float>(i));
   bytes[48] = 0x24;  // 5 x 3 pixels
-  bytes[49] = 2 | 8 | 2 << 4 | 1 << 6;
-  bytes[50] = 2 | 8 | 16 | 1 << 5;
+  bytes[49] = 2 | 8 | 16 | 1 << 5;
+  bytes[50] = 2, bytes[51] = 1, bytes[52] = 2, bytes[53] = 1;
   EXPECT_EQ(corpus::write_scene(decode_triangle(bytes)), corpus::write_scene(corpus::read_scene(R"(surefill-scene 1
 target 5 3
 samples 4

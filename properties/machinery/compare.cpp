@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "corpus/outputs.hpp"
 #include "oracle/oracle.hpp"
 
 namespace surefill::properties {
@@ -80,9 +81,11 @@ Renderer clipped_oracle_renderer() {
 
 corpus::Outputs outputs_of(const corpus::Scene& scene) {
   for (const corpus::SceneDraw& draw : scene.draws) {
-    if (draw.conservative != Conservative::none) {
-      return {.count = true, .index = false, .depth = false, .barycentrics = false, .attributes = false};
-    }
+    if (draw.conservative == Conservative::none) continue;
+    corpus::Outputs outputs;
+    outputs.attributes = false;
+    corpus::for_each_output([&](const auto& output) { outputs.*output.asked = output.when_conservative; });
+    return outputs;
   }
   return {};
 }
@@ -92,10 +95,10 @@ Comparison compare(const corpus::Scene& scene, const corpus::Image& expected, co
   Comparison result;
   result.samples = static_cast<std::uint64_t>(expected.width) * static_cast<std::uint64_t>(expected.height) *
                    static_cast<std::uint64_t>(expected.samples);
-  compare_buffer("count", expected.count, actual.count, expected, 1, keep, result);
-  compare_buffer("index", expected.index, actual.index, expected, 1, keep, result);
-  compare_buffer("depth", expected.depth, actual.depth, expected, 1, keep, result);
-  compare_buffer("barycentrics", expected.barycentrics, actual.barycentrics, expected, 3, keep, result);
+  corpus::for_each_output([&](const auto& output) {
+    compare_buffer(std::string(output.name), expected.*output.image, actual.*output.image, expected, output.elements,
+                   keep, result);
+  });
   if (expected.attributes.size() != actual.attributes.size()) {
     ++result.differences;
     if (result.first.size() < keep) {
@@ -116,10 +119,7 @@ Comparison compare(const corpus::Scene& scene, const corpus::Image& expected, co
 Comparison compare(const corpus::Scene& scene, const Renderer& expected, const Renderer& actual,
                    const corpus::Outputs& outputs, std::size_t keep) {
   corpus::Outputs asked = outputs_of(scene);
-  asked.count = asked.count && outputs.count;
-  asked.index = asked.index && outputs.index;
-  asked.depth = asked.depth && outputs.depth;
-  asked.barycentrics = asked.barycentrics && outputs.barycentrics;
+  corpus::for_each_output([&](const auto& output) { asked.*output.asked &= outputs.*output.asked; });
   asked.attributes = asked.attributes && outputs.attributes;
   corpus::Frame expected_frame(scene, asked);
   corpus::Frame actual_frame(scene, asked);

@@ -10,6 +10,8 @@
 #include <limits>
 #include <utility>
 
+#include "corpus/draw_fields.hpp"
+
 namespace surefill::properties {
 
 namespace {
@@ -248,36 +250,27 @@ bool simpler_frame_state(const Scene& scene, const Visit& visit) {
 
 bool simpler_draw_state(const Scene& scene, std::size_t d, const Visit& visit) {
   const SceneDraw& draw = scene.draws[d];
-  const SceneDraw plain;
-  // Visits the scene with a member of the draw as it is by default, where it is not so already.
-  const auto reset = [&](bool differs, auto change) {
-    return differs && with(scene, visit, [&](Scene& s) { change(s.draws[d]); });
-  };
-  if (reset(draw.viewport.has_value(), [](SceneDraw& x) { apply_viewport(x); })) return true;
-  if (reset(draw.culling_box.has_value(), [](SceneDraw& x) { x.culling_box.reset(); })) return true;
-  if (reset(draw.scissor.has_value(), [](SceneDraw& x) { x.scissor.reset(); })) return true;
-  if (reset(draw.grid.has_value(), [](SceneDraw& x) { x.grid.reset(); })) return true;
-  if (draw.grid) {
-    if (reset(draw.grid->offset_x != 0, [](SceneDraw& x) { x.grid->offset_x = 0; })) return true;
-    if (reset(draw.grid->offset_y != 0, [](SceneDraw& x) { x.grid->offset_y = 0; })) return true;
-    if (reset(draw.grid->rounding != GridRounding::nearest_even,
-              [](SceneDraw& x) { x.grid->rounding = GridRounding::nearest_even; })) {
-      return true;
-    }
+  const auto changed = [&](auto change) { return with(scene, visit, [&](Scene& s) { change(s.draws[d]); }); };
+  if (draw.viewport && changed([](SceneDraw& x) { apply_viewport(x); })) return true;
+  if (corpus::any_draw_field([&](const auto& field) {
+        using Value = std::remove_cvref_t<decltype(draw.*field.member)>;
+        const Value plain = DrawState{}.*field.member;
+        if (draw.*field.member == plain) return false;
+        return changed([&](SceneDraw& x) { x.*field.member = plain; });
+      })) {
+    return true;
   }
-  if (reset(draw.conservative != plain.conservative, [](SceneDraw& x) { x.conservative = Conservative::none; }))
-    return true;
-  if (reset(draw.depth_mode != plain.depth_mode, [](SceneDraw& x) { x.depth_mode = DepthMode::none; })) return true;
-  if (reset(!draw.depth_write, [](SceneDraw& x) { x.depth_write = true; })) return true;
-  if (reset(draw.cull != plain.cull, [](SceneDraw& x) { x.cull = Cull::none; })) return true;
-  if (reset(draw.front_face != plain.front_face, [](SceneDraw& x) { x.front_face = FrontFace::clockwise; }))
-    return true;
-  if (reset(draw.fill_rule != plain.fill_rule, [](SceneDraw& x) { x.fill_rule = FillRule::top_left; })) return true;
-  if (reset(draw.first_index.has_value(), [](SceneDraw& x) { x.first_index.reset(); })) return true;
+  if (draw.grid) {
+    if (draw.grid->offset_x != 0 && changed([](SceneDraw& x) { x.grid->offset_x = 0; })) return true;
+    if (draw.grid->offset_y != 0 && changed([](SceneDraw& x) { x.grid->offset_y = 0; })) return true;
+    if (draw.grid->rounding != Grid{}.rounding && changed([](SceneDraw& x) { x.grid->rounding = Grid{}.rounding; }))
+      return true;
+  }
+  if (draw.first_index && changed([](SceneDraw& x) { x.first_index.reset(); })) return true;
   const bool identified = !draw.triangles.empty() && draw.triangles.front().identifier.has_value();
-  return reset(identified, [](SceneDraw& x) {
-    for (auto& triangle : x.triangles) triangle.identifier.reset();
-  });
+  return identified && changed([](SceneDraw& x) {
+           for (auto& triangle : x.triangles) triangle.identifier.reset();
+         });
 }
 
 bool simpler_state(const Scene& scene, const Visit& visit) {

@@ -87,6 +87,7 @@ SUREFILL_API const char* status_text(Status status) noexcept;
 // A pixel-homogeneous vertex [S2]. In an array: 16 bytes a vertex, no padding.
 struct Vertex {
   float x, y, z, w;
+  bool operator==(const Vertex&) const = default;
 };
 
 // A vertex in clip space, before the viewport [S3].
@@ -139,6 +140,7 @@ enum class GridRounding : std::uint8_t { nearest_even, nearest_up, truncate };  
 // Half-open pixel rectangle [x0, x1) x [y0, y1); any values, empty where x0 >= x1 or y0 >= y1 [M3].
 struct Scissor {
   int x0, y0, x1, y1;
+  bool operator==(const Scissor&) const = default;
 };
 
 // Positions are snapped to offset + k 2^-bits pixels before coverage, as GPUs do [section 6].
@@ -146,6 +148,7 @@ struct Grid {
   int bits = 8;                    // 0..12
   int offset_x = 0, offset_y = 0;  // 0..15, in units of 2^-(bits + 4) pixels
   GridRounding rounding = GridRounding::nearest_even;
+  bool operator==(const Grid&) const = default;
 };
 
 // One attribute of every vertex of a draw. The value of component c at vertex v is values[v * stride + c].
@@ -156,13 +159,8 @@ struct AttributeArray {
   Interpolation interpolation = Interpolation::perspective;
 };
 
-// Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2].
-struct Draw {
-  std::span<const Vertex> vertices;
-  std::span<const std::uint32_t> indices;
-  std::span<const std::uint32_t> identifiers;  // one a triangle, unique; or empty: first_index + t [V2]
-  std::uint32_t first_index = 0;
-  std::span<const AttributeArray> attributes;  // array k feeds target attribute k; more arrays only take part in B1
+// How a draw is drawn; `==` compares as numbers do.
+struct DrawState {
   FillRule fill_rule = FillRule::top_left;
   FrontFace front_face = FrontFace::clockwise;
   Cull cull = Cull::none;
@@ -172,6 +170,19 @@ struct Draw {
   std::optional<Scissor> scissor;
   std::optional<Grid> grid;
   std::optional<std::array<Vertex, 8>> culling_box;  // corners whose hull contains the draw: the caller's promise [M6]
+
+  bool operator==(const DrawState&) const = default;
+  DrawState& state() { return *this; }
+  const DrawState& state() const { return *this; }
+};
+
+// Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2].
+struct Draw : DrawState {
+  std::span<const Vertex> vertices;
+  std::span<const std::uint32_t> indices;
+  std::span<const std::uint32_t> identifiers;  // one a triangle, unique; or empty: first_index + t [V2]
+  std::uint32_t first_index = 0;
+  std::span<const AttributeArray> attributes;  // array k feeds target attribute k; more arrays only take part in B1
 };
 
 // An attribute image. The value of component c at sample s is values[s * components + c].

@@ -16,14 +16,16 @@ namespace surefill::corpus {
 template <typename Enum, std::size_t Count>
 using Names = std::array<std::pair<Enum, std::string_view>, Count>;
 
-inline constexpr Names<FillRule, 8> kFillRuleNames{{{FillRule::top_left, "top-left"},
-                                                    {FillRule::top_right, "top-right"},
-                                                    {FillRule::bottom_left, "bottom-left"},
-                                                    {FillRule::bottom_right, "bottom-right"},
-                                                    {FillRule::southwards, "southwards"},
-                                                    {FillRule::southwards_west, "southwards-west"},
-                                                    {FillRule::northwards, "northwards"},
-                                                    {FillRule::northwards_west, "northwards-west"}}};
+inline constexpr Names<FillRule, 10> kFillRuleNames{{{FillRule::top_left, "top-left"},
+                                                     {FillRule::top_right, "top-right"},
+                                                     {FillRule::bottom_left, "bottom-left"},
+                                                     {FillRule::bottom_right, "bottom-right"},
+                                                     {FillRule::southwards, "southwards"},
+                                                     {FillRule::southwards_west, "southwards-west"},
+                                                     {FillRule::northwards, "northwards"},
+                                                     {FillRule::northwards_west, "northwards-west"},
+                                                     {FillRule::closed, "closed"},
+                                                     {FillRule::open, "open"}}};
 inline constexpr Names<FrontFace, 2> kFrontFaceNames{
     {{FrontFace::clockwise, "clockwise"}, {FrontFace::counter_clockwise, "counter-clockwise"}}};
 inline constexpr Names<Cull, 3> kCullNames{{{Cull::none, "none"}, {Cull::front, "front"}, {Cull::back, "back"}}};

@@ -313,6 +313,8 @@ class Reader {
   }
 
   void check_draw() const {
+    if (draw().grid && draw().fill_rule > FillRule::northwards_west)
+      fail("the fill rules closed and open have no grid (C5)");
     if (draw().conservative != Conservative::none) {
       if (scene_.samples != 1) fail_at(conservative_line_, "a conservative draw needs samples 1 (M4)");
       if (draw().depth_mode != DepthMode::none)

@@ -288,7 +288,7 @@ class Arguments {
     note(draw.identifiers.empty() && drawn + draw.first_index > 0xFFFFFFFFu, Status::draw_first_index);
 
     build_attributes(draw, arrays);
-    draw.fill_rule = enumerator(FillRule::northwards_west, Status::draw_fill_rule);
+    draw.fill_rule = enumerator(FillRule::open, Status::draw_fill_rule);
     draw.front_face = enumerator(FrontFace::counter_clockwise, Status::draw_front_face);
     draw.cull = enumerator(Cull::back, Status::draw_cull);
     draw.depth_mode = enumerator(DepthMode::clamp, Status::draw_depth_mode);
@@ -306,6 +306,7 @@ class Arguments {
       const auto outside = [](int value, int last) { return value < 0 || value > last; };
       note(outside(draw.grid->bits, 12) || outside(draw.grid->offset_x, 15) || outside(draw.grid->offset_y, 15),
            Status::draw_grid);
+      note(draw.fill_rule > FillRule::northwards_west, Status::draw_fill_rule);  // C5
     }
     if (one_in(16)) draw.conservative = enumerator(Conservative::inner, Status::draw_conservative);
     if (draw.conservative != Conservative::none) {

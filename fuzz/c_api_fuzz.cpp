@@ -325,7 +325,7 @@ class Call {
     }
     d.first_index = one_in(16) ? 0xFFFFFFFFu - in_.below(8) : in_.byte();
     build_attributes(d);
-    d.fill_rule = enumerator(8);
+    d.fill_rule = enumerator(10);
     d.front_face = enumerator(2);
     d.cull = enumerator(3);
     d.depth_mode = enumerator(3);

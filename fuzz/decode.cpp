@@ -114,6 +114,11 @@ std::optional<std::uint32_t> edge_byte(int edge) {
   return static_cast<std::uint8_t>(edge);
 }
 
+// The rule that a draw with a Grid has instead (C5).
+FillRule on_grid(FillRule rule) {
+  return rule > FillRule::northwards_west ? FillRule::top_left : rule;
+}
+
 // The state of one triangle: what a plain draw has.
 void set_state(ByteReader& in, OneTriangle& triangle) {
   set_choice(in, triangle.fill_rule), set_choice(in, triangle.front_face);
@@ -197,6 +202,7 @@ SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
     }
   });
   if (draw.conservative != Conservative::none) draw.grid.reset();  // M4
+  if (draw.grid) draw.fill_rule = on_grid(draw.fill_rule);
   if ((flags & kHasFirstIndex) != 0) draw.first_index = std::min(in.word(), kNoTriangle - triangles);
   for (SceneVertex& vertex : draw.vertices) {
     for (float* number : {&vertex.x, &vertex.y, &vertex.z, &vertex.w}) *number = in.real();
@@ -318,7 +324,7 @@ OneTriangle decode_one(std::span<const std::uint8_t> bytes, bool with_grid) {
   const std::uint32_t interpolation = (frame >> 5) & 3u;
   if (interpolation < 3) triangle.interpolation = static_cast<Interpolation>(interpolation);
   for (float& value : triangle.attribute) value = in.real();
-  if (with_grid) triangle.grid = decode_grid(in);
+  if (with_grid) triangle.grid = decode_grid(in), triangle.fill_rule = on_grid(triangle.fill_rule);
   return triangle;
 }
 

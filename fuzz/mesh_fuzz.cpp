@@ -39,7 +39,7 @@ Scene frame_of(const Scene& from) {
   scene.height = from.height;
   scene.samples = from.samples;
   scene.draws.resize(1);
-  scene.draws[0].fill_rule = from.draws[0].fill_rule;
+  if (from.draws[0].fill_rule <= FillRule::northwards_west) scene.draws[0].fill_rule = from.draws[0].fill_rule;  // T1
   return scene;
 }
 

@@ -473,6 +473,7 @@ void cross(Scene& scene, const Scene& other, Random& random) {
         draw.fill_rule = from.fill_rule, draw.front_face = from.front_face, draw.cull = from.cull;
         if (draw.conservative == Conservative::none) draw.depth_mode = from.depth_mode;
         if (draw.grid && from.grid) draw.grid = from.grid;
+        if (draw.grid && draw.fill_rule > FillRule::northwards_west) draw.fill_rule = FillRule::top_left;  // C5
         scene.depth_test = other.depth_test;
     }
   }

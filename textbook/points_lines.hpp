@@ -86,7 +86,7 @@ class Line {
     sum.add_product(-(jw * ky), dx);
     sum.add_product(jw * kx, dy);
     sum.add_product(-(jx * kw), dy);
-    return sum.sign() != 0 ? sum.sign() : tie_sign(edge_, shift_);
+    return sum.sign() != 0 ? sum.sign() : tie_sign(edge_.a, edge_.b, shift_);
   }
 
   // Does the infinite line meet the open diamond: do its corners lie on both sides?

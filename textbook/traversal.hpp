@@ -47,7 +47,7 @@ class Asked {
   Asked(const Triangle& triangle, FillRule rule, const Lattice& lattice) : triangle_(triangle), lattice_(lattice) {
     for (int i = 0; i < 3; ++i) {
       const EdgeFunction& e = triangle.edge(i);
-      tie_[i] = tie_sign(e, tie_shift(rule)) * triangle.determinant();
+      tie_[i] = tie_sign(e, tie_shift(rule), triangle.determinant()) * triangle.determinant();
       along_x_[i] = sign_of(e.a) * triangle.determinant();
       along_y_[i] = sign_of(e.b) * triangle.determinant();
     }

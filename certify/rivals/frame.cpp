@@ -169,6 +169,8 @@ std::vector<Draw> under_model(std::span<const Draw> draws, const surefill_adapte
 std::string what_is_lacking(const Target& target, std::span<const Draw> draws, const surefill_adapter_info& info) {
   const std::uint32_t missing = features_of(target, draws) & ~info.features;
   if (missing != 0) return kFeatureNames[std::countr_zero(missing)];
+  for (const Draw& draw : draws)  // version 1 of the adapter has no word for them
+    if (draw.fill_rule > FillRule::northwards_west) return "fill rules closed and open";
   if (exceeds(static_cast<std::size_t>(target.width), info.max_width) ||
       exceeds(static_cast<std::size_t>(target.height), info.max_height)) {
     return "targets of this size";

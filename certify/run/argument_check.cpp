@@ -208,8 +208,12 @@ constexpr Fault kFaults[] = {
      [](Call& c) { c.attribute_arrays[0].stride = 0xFFFFFFFFu; }},
     {"unknown interpolation", Status::draw_attribute_interpolation,
      [](Call& c) { c.attribute_arrays[0].interpolation = beyond(Interpolation::flat); }},
-    {"unknown fill rule", Status::draw_fill_rule,
-     [](Call& c) { c.draw().fill_rule = beyond(FillRule::northwards_west); }},
+    {"unknown fill rule", Status::draw_fill_rule, [](Call& c) { c.draw().fill_rule = beyond(FillRule::open); }},
+    {"closed fill rule with a grid", Status::draw_fill_rule,
+     [](Call& c) {
+       c.draw().fill_rule = FillRule::closed;
+       c.draw().grid = Grid{};
+     }},
     {"unknown front face", Status::draw_front_face,
      [](Call& c) { c.draw().front_face = beyond(FrontFace::counter_clockwise); }},
     {"unknown culling", Status::draw_cull, [](Call& c) { c.draw().cull = beyond(Cull::back); }},

@@ -290,7 +290,7 @@ TEST(SceneText, RefusalsNameLineAndCause) {
       {with_draw_lines("front-face cw"), "f:4: 'cw' is none of: clockwise, counter-clockwise"},
       {with_draw_lines("fill-rule top_left"),
        "f:4: 'top_left' is none of: top-left, top-right, bottom-left, bottom-right, southwards, southwards-west, "
-       "northwards, northwards-west"},
+       "northwards, northwards-west, closed, open"},
       {with_draw_lines("depth-mode cut"), "f:4: 'cut' is none of: none, clip, clamp"},
       {with_draw_lines("depth-write yes"), "f:4: 'yes' is none of: on, off"},
       {with_draw_lines("conservative outer"), "f:4: 'outer' is none of: none, over, inner"},

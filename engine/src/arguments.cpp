@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "exact/edge.hpp"
 #include "overlap.hpp"
 #include "planted.hpp"
 #include "surefill/surefill.hpp"
@@ -110,7 +111,7 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
   if (has_no_triangle(draw.identifiers)) return Status::draw_identifiers;
   if (draw.identifiers.empty() && triangles > kLargestIndex - draw.first_index) return Status::draw_first_index;
   if (const Status status = validate_attributes(target, draw); status != Status::ok) return status;
-  if (draw.fill_rule > FillRule::northwards_west) return Status::draw_fill_rule;
+  if (draw.fill_rule > FillRule::open || (draw.grid && !moves_samples(draw.fill_rule))) return Status::draw_fill_rule;
   if (draw.front_face > FrontFace::counter_clockwise) return Status::draw_front_face;
   if (draw.cull > Cull::back) return Status::draw_cull;
   if (draw.depth_mode > DepthMode::clamp) return Status::draw_depth_mode;

@@ -31,7 +31,7 @@ static_assert(sizeof(surefill_rectangle) == sizeof(OcclusionRectangle));
 static_assert(sizeof(Occlusion) == 1 && static_cast<int>(Occlusion::visible) == SUREFILL_VISIBLE);
 static_assert(static_cast<int>(Status::query_answers) == SUREFILL_QUERY_ANSWERS);
 static_assert(static_cast<int>(Status::bad_build) == SUREFILL_BAD_BUILD);
-static_assert(static_cast<int>(FillRule::northwards_west) == SUREFILL_NORTHWARDS_WEST);
+static_assert(static_cast<int>(FillRule::open) == SUREFILL_OPEN);
 static_assert(kMaxTargetSize == SUREFILL_MAX_TARGET_SIZE && kMaxAttributes == SUREFILL_MAX_ATTRIBUTES);
 static_assert(kMaxComponents == SUREFILL_MAX_COMPONENTS && kMaxThreads == SUREFILL_MAX_THREADS);
 

@@ -78,6 +78,18 @@ constexpr Specimen kSpecimens[] = {
      [](const Target& target, Draws draws) {
        return with_state(target, draws, [](Draw& d) { d.fill_rule = FillRule::top_left; });
      }},
+    {"closed-as-top-left", "the border of closed shapes goes by the top-left rule", "", "equality-closed-open",
+     [](const Target& target, Draws draws) {
+       return with_state(target, draws, [](Draw& d) {
+         if (d.fill_rule == FillRule::closed) d.fill_rule = FillRule::top_left;
+       });
+     }},
+    {"open-as-closed", "the border of open shapes is covered", "", "equality-closed-open",
+     [](const Target& target, Draws draws) {
+       return with_state(target, draws, [](Draw& d) {
+         if (d.fill_rule == FillRule::open) d.fill_rule = FillRule::closed;
+       });
+     }},
     {"horizontal-edges-swapped", "top edges treated as bottom edges", "SerenityOS#13738", "small-world-half-pixel",
      [](const Target& target, Draws draws) {
        return with_state(target, draws, [](Draw& d) { d.fill_rule = turned(d.fill_rule, kMirrorY); });

@@ -134,6 +134,7 @@ void mask(const Target& target, Counts& counts, const Keep& keep) {
 // The rule with the sign of its x shift, of its y shift or of both turned round.
 constexpr unsigned kMirrorX = 1, kMirrorY = 2, kOpposite = 3;
 inline FillRule turned(FillRule rule, unsigned signs) {
+  if (rule > FillRule::northwards_west) return rule;  // C5's move nothing
   return static_cast<FillRule>(static_cast<unsigned>(rule) ^ signs);
 }
 

@@ -24,6 +24,13 @@ corpus::Scene make_coverage(std::uint64_t n) {
   return scene;
 }
 
+corpus::Scene make_closed_open(std::uint64_t n) {
+  corpus::Scene scene = random_case(n, kPlain);
+  for (corpus::SceneDraw& draw : scene.draws)
+    draw.fill_rule = (n / categories().size()) % 2 == 0 ? FillRule::closed : FillRule::open;
+  return scene;
+}
+
 corpus::Scene make_depth(std::uint64_t n) {
   constexpr DepthMode kModes[] = {DepthMode::none, DepthMode::clip, DepthMode::clamp};
   corpus::Scene scene = random_case(n, kPlain);
@@ -158,6 +165,8 @@ Verdict decide_all(const corpus::Scene& scene, const Renderer& renderer) {
 constexpr Property kProperties[] = {
     {"equality-coverage", "C1-C4", "every coverage count is the oracle's, under every fill rule", true, true, 0,
      make_coverage, decide_coverage},
+    {"equality-closed-open", "C5", "every coverage count is the oracle's, under the fill rules closed and open", true,
+     true, 0, make_closed_open, decide_coverage},
     {"equality-wide", "S5, C1-C4", "on targets up to 16384 pixels wide or high, counts and depths are the oracle's",
      true, true, 0, make_wide, decide_depth},
     {"equality-depth", "I1, I4, I5, V1", "counts, indices and depths are the oracle's, bit for bit", true, true, 0,

@@ -33,7 +33,7 @@ NO_TRIANGLE: int = 0xFFFFFFFF
 """The index of a sample that no triangle covers."""
 
 _FILL_RULES = ("top_left", "top_right", "bottom_left", "bottom_right", "southwards", "southwards_west", "northwards",
-               "northwards_west")
+               "northwards_west", "closed", "open")
 _FRONT_FACES = ("clockwise", "counter_clockwise")
 _CULLS = ("none", "front", "back")
 _DEPTH_TESTS = ("less", "greater")

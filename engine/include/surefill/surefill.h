@@ -63,7 +63,7 @@ typedef enum surefill_status {
   SUREFILL_DRAW_FIRST_INDEX,        /* first_index + triangles exceeds 2^32 - 1 [B5] */
   SUREFILL_DRAW_ATTRIBUTES,         /* fewer arrays than the target asks for, other components, or too short */
   SUREFILL_DRAW_ATTRIBUTE_INTERPOLATION, /* not a surefill_interpolation */
-  SUREFILL_DRAW_FILL_RULE,               /* not a surefill_fill_rule */
+  SUREFILL_DRAW_FILL_RULE,               /* not a surefill_fill_rule, or closed or open with a grid */
   SUREFILL_DRAW_FRONT_FACE,              /* not a surefill_front_face */
   SUREFILL_DRAW_CULL,                    /* not a surefill_cull */
   SUREFILL_DRAW_DEPTH_MODE,              /* not a surefill_depth_mode */
@@ -95,7 +95,9 @@ typedef enum surefill_fill_rule {
   SUREFILL_SOUTHWARDS,
   SUREFILL_SOUTHWARDS_WEST,
   SUREFILL_NORTHWARDS,
-  SUREFILL_NORTHWARDS_WEST
+  SUREFILL_NORTHWARDS_WEST,
+  SUREFILL_CLOSED, /* every such sample is covered [C5]; not with a grid */
+  SUREFILL_OPEN    /* none is [C5]; not with a grid */
 } surefill_fill_rule;
 
 /* Which facing is the front, as seen on the screen [F1]. */

@@ -66,7 +66,7 @@ enum class Status : std::uint32_t {
   draw_first_index,           // first_index + triangles exceeds 2^32 - 1: a triangle's index reaches kNoTriangle [B5]
   draw_attributes,            // fewer arrays than the target asks for, other components, or too short an array
   draw_attribute_interpolation,  // not an enumerator of Interpolation
-  draw_fill_rule,                // not an enumerator of FillRule, or closed or open [C5]
+  draw_fill_rule,                // not an enumerator of FillRule, or closed or open with a Grid [C5]
   draw_front_face,               // not an enumerator of FrontFace
   draw_cull,                     // not an enumerator of Cull
   draw_depth_mode,               // not an enumerator of DepthMode
@@ -114,7 +114,7 @@ SUREFILL_API Status to_pixel(const Viewport& viewport, std::span<const ClipVerte
 
 // Which side owns a sample that lies exactly on an edge [C3]: the sample is moved by an infinitely small step. The
 // first four move it in x first and in y only to settle ties along a horizontal edge; the next four in y first. The
-// last two move nothing: every side owns it, or none [C5]; they are not built yet, and render refuses them.
+// last two move nothing: every side owns it, or none [C5], but not with a Grid.
 enum class FillRule : std::uint8_t {
   top_left,         // +x, then +y: Direct3D, Vulkan
   top_right,        // -x, then +y

@@ -90,11 +90,17 @@ struct EdgeFunction {
   }
 };
 
-// The direction in which a fill rule moves a sample (C3).
+// What a fill rule does with a sample on an edge: where it moves it (C3), or which side has all of them (C5).
 struct TieShift {
   int x, y;  // +1 or -1
   bool y_dominates;
+  int all = 0;  // +1: every sample on an edge is covered; -1: none is; 0: the sample moves
 };
+
+// Is it one of C3's rules, and not of C5's?
+inline bool moves_samples(FillRule rule) {
+  return rule <= FillRule::northwards_west;
+}
 
 inline TieShift tie_shift(FillRule rule) {
   switch (rule) {
@@ -115,8 +121,9 @@ inline TieShift tie_shift(FillRule rule) {
     case FillRule::northwards_west:
       return {-1, -1, true};
     case FillRule::closed:
+      return {+1, +1, false, +1};
     case FillRule::open:
-      break;  // refused by validate
+      return {+1, +1, false, -1};
   }
   return {+1, +1, false};
 }
@@ -129,8 +136,9 @@ inline int tie_sign(double a, double b, TieShift shift) {
   return along_x != 0 ? along_x : along_y;
 }
 
-inline int tie_sign(const EdgeFunction& edge, TieShift shift) {
-  return tie_sign(edge.a, edge.b, shift);
+// The same for a triangle whose D has the sign `determinant`, under any rule (C3, C5).
+inline int tie_sign(const EdgeFunction& edge, TieShift shift, int determinant) {
+  return shift.all != 0 ? shift.all * determinant : tie_sign(edge.a, edge.b, shift);
 }
 
 // det(m0, m1, m2), exactly.

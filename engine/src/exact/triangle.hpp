@@ -55,11 +55,11 @@ class Triangle {
   const Vertex& vertex(int i) const { return vertex_[i]; }
   const EdgeFunction& edge(int i) const { return edge_[i]; }  // from vertex i + 1 to vertex i + 2, modulo 3
 
-  // C2 and C3.
+  // C2, C3 and C5.
   bool covers(SamplePosition p, TieShift shift, Statistics& statistics) const {
     for (const EdgeFunction& edge : edge_) {
       int sign = edge.sign(p, statistics);
-      if (sign == 0) sign = tie_sign(edge, shift);
+      if (sign == 0) sign = tie_sign(edge, shift, determinant_sign_);
       if (sign != determinant_sign_) return false;
     }
     return true;

@@ -33,7 +33,7 @@ struct Facts {
 // Version, commit, compiler, flags, cpu, instruction_set.
 Facts build_facts();
 
-// "surefill 0.1.0 (commit)".
+// "surefill 0.2.0 (commit)".
 std::string version_line();
 
 // The line of one check, with a second one for what was found.

@@ -4,6 +4,6 @@
 #define SUREFILL_VERSION_HPP
 
 // "major.minor.patch"
-#define SUREFILL_VERSION "0.1.0"
+#define SUREFILL_VERSION "0.2.0"
 
 #endif  // SUREFILL_VERSION_HPP

@@ -282,7 +282,7 @@ bool supports(std::span<const Draw> draws) {
   std::size_t triangles = 0;
   for (const Draw& draw : draws) {
     triangles += draw.indices.size() / 3;
-    if (triangles >= kNoTriangle || !moves_samples(draw.fill_rule)) return false;
+    if (triangles >= kNoTriangle) return false;
   }
   return true;
 }

@@ -136,7 +136,9 @@ HWY_NOINLINE void StoreEdges(const DrawJob& job, Group& group, const Double (&sc
                    other = job.shift.y_dominates ? along_x : along_y;
       const auto zero = hn::Zero(dd);
       lost = hn::Or(hn::Lt(decides, zero), hn::And(hn::Eq(decides, zero), hn::Le(other, zero)));
-      if (conservative != Conservative::none) lost = hn::Lt(a, a);  // T and the squares are closed
+      // T and the squares are closed, and so are triangles under the rule closed; those under open have no border (C5).
+      if (conservative != Conservative::none || job.shift.all > 0) lost = hn::Lt(a, a);
+      if (conservative == Conservative::none && job.shift.all < 0) lost = hn::Eq(a, a);
       batch.tie_lost[i] |= (Bits(dd, lost) & batch.integer >> lane) << lane;
     }
     if ((small & group.lanes) != 0) {

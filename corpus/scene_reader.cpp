@@ -13,7 +13,6 @@
 #include "corpus/draw_fields.hpp"
 #include "corpus/scene.hpp"
 #include "corpus/text_file.hpp"
-#include "engine/src/planted.hpp"
 
 namespace surefill::corpus {
 namespace {
@@ -227,7 +226,7 @@ class Reader {
 
   std::uint32_t vertex_number(std::string_view field) const {
     const auto number = integer<std::uint32_t>(field, 0, std::numeric_limits<std::uint32_t>::max());
-    if (number >= draw().vertices.size() + (SUREFILL_PLANT(reader_bounds) ? 1 : 0)) {
+    if (number >= draw().vertices.size()) {
       fail("no vertex " + std::to_string(number) + ": " + std::to_string(draw().vertices.size()) +
            " vertices stand above this line");
     }

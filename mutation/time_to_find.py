@@ -1,20 +1,19 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""How soon the fuzzers find faults that are planted in the engine: CPU seconds until the first finding, the median over
-seeds, each run capped. Without the corpus: every run begins with one plain input, or the seeds would find most at once.
+"""How soon the fuzzers find planted faults (faults.py): CPU seconds until the first finding, the median over seeds, each run
+capped. Without the corpus: every run begins with one plain input, or the seeds would find most at once.
 
-usage: mutation/time_to_find.py [--seeds 3] [--cap 60] [--engine ENGINE ...] [--jobs N] [--programs FOLDER]
-                             [--markdown FILE] [FAULT ...]
+usage: mutation/time_to_find.py [--seeds 3] [--cap 60] [--engine ENGINE ...] [--jobs N] [--markdown FILE] [FAULT ...]
 
-Builds build/planted (libFuzzer, address and undefined sanitizers, SUREFILL_PLANTED) and, for AFL++, build/planted-afl. The
-engines: custom (libFuzzer with the project's mutator and crossover), plain (libFuzzer's own mutator), afl (AFL++), seeded
-(custom, with the seeds of the corpus). Exit 1 if `custom` leaves a fault unfound.
+Works in build/time-to-find: a copy of the tree gets one fault at a time, and the target that is to find it is built of it, for
+libFuzzer (address and undefined sanitizers) and, for AFL++, without sanitizers. The engines: custom (libFuzzer with the
+project's mutator and crossover), plain (libFuzzer's own mutator), afl (AFL++), seeded (custom, with the seeds of the
+corpus). Exit 1 if `custom` leaves a fault unfound, 2 if one cannot be built.
 """
 import argparse
 import concurrent.futures
 import os
 import pathlib
-import re
 import resource
 import shutil
 import statistics
@@ -22,55 +21,45 @@ import subprocess
 import sys
 import time
 
-# fault: (target that is to find it, what it is)
-FAULTS = {
-    "edge_bound": ("triangle", "error bound of the edge filter 64 times too small"),
-    "residual_rung": ("triangle", "residual rung taken for rounded coefficients"),
-    "expansion_rung": ("triangle", "a rounded term in the expansion of an edge function"),
-    "determinant_bound": ("triangle", "error bound of D 64 times too small"),
-    "tie_sign": ("triangle", "sign of a tie on a horizontal edge"),
-    "halfway_case": ("triangle", "halfway cases rounded up"),
-    "quotient_rung": ("triangle", "error bound of an exact quotient's estimate too small"),
-    "value_bound": ("triangle", "error bound of values without the error of their parts"),
-    "clip_rung": ("triangle", "depth clip decided on a bound and not exactly"),
-    "box": ("triangle", "last row and column of the screen box, if the box ends on a sample"),
-    "box_behind_eye": ("triangle", "screen box that forgets the vertices behind the eye"),
-    "snap_halfway": ("grid", "halfway between grid positions, ties not to even"),
-    "snap_bound": ("grid", "error bound of snapping too small"),
-    "guard_band_cut": ("grid", "cut at the guard band depends on the order of the end points"),
-    "depth_tie": ("paths", "equal depths resolved by position and not by identifier"),
-    "viewport_rung": ("scene", "viewport map rounded twice"),
-    "small_bound": ("paths", "uncertain lanes of small triangles not all settled exactly"),
-    "tile_border": ("paths", "last column where it begins a tile"),
-    "merge_order": ("paths", "deferred lanes resolved by position and not by identifier"),
-    "hierarchical_z": ("paths", "hierarchical z that looks at 7 of 8 samples"),
-    "batch_lane": ("paths", "lane 5 of a batch draws lane 4's triangle"),
-    "depth_bound": ("paths", "error bound of depth planes too small"),
-    "parts_bound": ("paths", "error bound of depth in parts without what the parts add"),
-    "index_check": ("arguments", "an index one past the vertices is accepted"),
-    "reader_bounds": ("reader", "a vertex number one past the vertices is read"),
-}
+import faults
+
 LONGEST = 3600  # seconds, by the clock; the cap is one of CPU time
 ENGINES = ("custom", "plain", "afl", "seeded")
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent
+ROOT = faults.ROOT
 WORK = ROOT / "build" / "time-to-find"
 
 
-def build(engine):
-    directory = ROOT / "build" / ("planted-afl" if engine == "afl" else "planted")
-    compilers = ("afl-clang-fast", "afl-clang-fast++") if engine == "afl" else ("clang-19", "clang++-19")
-    sanitizers = "" if engine == "afl" else "address,undefined"
-    WORK.mkdir(parents=True, exist_ok=True)
+def build(kind, target):
+    """Builds a target of the copy of the tree, for libFuzzer or AFL++; the folder of the programs."""
+    directory = WORK / f"build-{kind}"
+    compilers = ("afl-clang-fast", "afl-clang-fast++") if kind == "afl" else ("clang-19", "clang++-19")
+    sanitizers = "" if kind == "afl" else "address,undefined"
     environment = dict(os.environ, AFL_QUIET="1")
-    with open(WORK / f"build-{engine}.log", "w") as log:
-        for command in (["cmake", "-S", ROOT, "-B", directory, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
+    with open(WORK / f"build-{kind}.log", "w") as log:
+        for command in (["cmake", "-S", WORK / "src", "-B", directory, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=RelWithDebInfo",
                          f"-DCMAKE_C_COMPILER={compilers[0]}", f"-DCMAKE_CXX_COMPILER={compilers[1]}",
-                         f"-DSUREFILL_SANITIZE={sanitizers}", "-DSUREFILL_FUZZ=ON", "-DSUREFILL_PLANTED=ON"],
-                        ["cmake", "--build", directory, "--target", "surefill_fuzz"]):
+                         f"-DSUREFILL_SANITIZE={sanitizers}", "-DSUREFILL_FUZZ=ON"],
+                        ["cmake", "--build", directory, "--target", target]):
             if subprocess.run(command, stdout=log, stderr=subprocess.STDOUT, env=environment).returncode != 0:
-                sys.exit(f"time_to_find: the build failed, see {log.name}")
+                print(f"time_to_find: the build failed, see {log.name}", file=sys.stderr)
+                sys.exit(2)
     return directory / "fuzz"
+
+
+def build_all(chosen, engines):
+    """For each fault and kind of engine, the target that is to find it, in WORK/programs; the seeds of the sound engine."""
+    kinds = sorted({"afl" if engine == "afl" else "libfuzzer" for engine in engines})
+    shutil.rmtree(WORK / "programs", ignore_errors=True)
+    (WORK / "programs").mkdir(parents=True)
+    if "seeded" in engines:
+        faults.refresh_copy(WORK / "src")
+        shutil.copytree(build("libfuzzer", "surefill_fuzz") / "seeds", WORK / "programs" / "seeds")
+    for fault in chosen:
+        faults.plant(fault, WORK / "src")
+        for kind in kinds:
+            program = build(kind, f"{fault.target}_fuzz") / f"{fault.target}_fuzz"
+            shutil.copy2(program, WORK / "programs" / f"{kind}-{fault.name}")
 
 
 def plain_input(target):
@@ -89,25 +78,25 @@ def cpu_of_children(before):
 def run(task):
     """CPU seconds until the finding for each seed, or None. The rest of the seeds are left out once the median is known to
     be above the cap. One process a call, so that its children's time is its own."""
-    engine, programs, fault, seeds, cap = task
+    engine, fault, seeds, cap = task
     times = []
     for seed in range(1, seeds + 1):
         if 2 * times.count(None) > seeds:
             times.append(None)
         else:
-            times.append(run_seed(engine, programs, fault, seed, cap))
+            times.append(run_seed(engine, fault, seed, cap))
     return times
 
 
-def run_seed(engine, programs, fault, seed, cap):
-    target = FAULTS[fault][0]
-    work = WORK / f"{engine}-{fault}-{seed}"
+def run_seed(engine, fault, seed, cap):
+    target = fault.target
+    work = WORK / f"{engine}-{fault.name}-{seed}"
     shutil.rmtree(work, ignore_errors=True)
     (work / "in").mkdir(parents=True)
     (work / "in" / "plain").write_bytes(plain_input(target))
-    program = pathlib.Path(programs) / f"{target}_fuzz"
+    program = WORK / "programs" / f"{'afl' if engine == 'afl' else 'libfuzzer'}-{fault.name}"
     dictionary = ROOT / "fuzz" / f"{target}.dict"
-    environment = dict(os.environ, SUREFILL_PLANT=fault)
+    environment = dict(os.environ)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     with open(work / "log", "w") as log:
         if engine == "afl":
@@ -120,7 +109,7 @@ def run_seed(engine, programs, fault, seed, cap):
             command = [program, f"-seed={seed}", f"-max_total_time={LONGEST}", "-detect_leaks=0", "-max_len=4096",
                        f"-artifact_prefix={work}/", *([f"-dict={dictionary}"] if dictionary.is_file() else []), work / "in"]
             if engine == "seeded":
-                command.append(pathlib.Path(programs) / "seeds" / target)
+                command.append(WORK / "programs" / "seeds" / target)
         process = subprocess.Popen(command, stdout=log, stderr=subprocess.STDOUT, env=environment,
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (cap + 2, cap + 2)) if engine != "afl" else None)
         found = watch(process, cap, engine, work)
@@ -171,29 +160,25 @@ def main():
     parser.add_argument("--cap", type=int, default=60)
     parser.add_argument("--engine", action="append", choices=ENGINES)
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--programs", help="folder of targets that are built already, for all engines given")
     parser.add_argument("--markdown", help="write the table there, too")
     parser.add_argument("fault", nargs="*")
     options = parser.parse_args()
     engines = options.engine or ["custom", "plain", "afl"]
-    faults = options.fault or list(FAULTS)
-    for fault in faults:
-        if fault not in FAULTS:
-            sys.exit(f"time_to_find: no such fault: {fault}")
-    programs = {engine: options.programs or str(build(engine)) for engine in engines}
-    tasks = [(engine, programs[engine], fault, options.seeds, options.cap) for fault in faults for engine in engines]
+    chosen = faults.named(options.fault)
+    build_all(chosen, engines)
+    tasks = [(engine, fault, options.seeds, options.cap) for fault in chosen for engine in engines]
     lines = [f"| fault | target | {' | '.join(engines)} |", f"| --- | --- |{' ---: |' * len(engines)}"]
     print("\n".join(lines), flush=True)
     unfound = []
     with concurrent.futures.ProcessPoolExecutor(options.jobs, max_tasks_per_child=1) as pool:
         results = pool.map(run, tasks)
-        for fault in faults:
+        for fault in chosen:
             cells = []
             for engine in engines:
                 cells.append(text_of(next(results), options.cap))
                 if engine == "custom" and cells[-1].startswith(">"):
-                    unfound.append(fault)
-            lines.append(f"| {FAULTS[fault][1]} (`{fault}`) | {FAULTS[fault][0]} | {' | '.join(cells)} |")
+                    unfound.append(fault.name)
+            lines.append(f"| {fault.what} (`{fault.name}`) | {fault.target} | {' | '.join(cells)} |")
             print(lines[-1], flush=True)
     if options.markdown:
         pathlib.Path(options.markdown).write_text("\n".join(lines) + "\n")

@@ -8,7 +8,6 @@
 
 #include "exact/edge.hpp"
 #include "overlap.hpp"
-#include "planted.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill {
@@ -134,8 +133,7 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
   if (!apart) return Status::target_overlap;
   std::uint32_t largest = 0;
   for (const std::uint32_t index : draw.indices) largest = std::max(largest, index);
-  if (!draw.indices.empty() && largest >= draw.vertices.size() + (SUREFILL_PLANT(index_check) ? 1 : 0))
-    return Status::draw_index_out_of_range;
+  if (!draw.indices.empty() && largest >= draw.vertices.size()) return Status::draw_index_out_of_range;
   return Status::ok;
 }
 

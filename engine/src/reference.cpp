@@ -12,7 +12,6 @@
 #include "exact/conservative.hpp"
 #include "exact/grid.hpp"
 #include "exact/triangle.hpp"
-#include "planted.hpp"
 
 namespace surefill::reference {
 namespace {
@@ -272,7 +271,6 @@ class DrawRenderer {
   bool passes(std::uint32_t position, float z, std::size_t s) const {
     const bool nearer = target_.depth_test == DepthTest::less ? z < depth_[s] : z > depth_[s];
     if (winner_[s] == kNoTriangle) return nearer;
-    if (SUREFILL_PLANT(depth_tie)) return nearer || (z == depth_[s] && position < winner_[s]);
     if (!draw_.depth_write) return nearer && index_of(draw_, position) >= index_of(draw_, winner_[s]);
     return nearer || (z == depth_[s] && index_of(draw_, position) < index_of(draw_, winner_[s]));
   }

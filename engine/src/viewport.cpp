@@ -8,7 +8,6 @@
 #include "exact/exact.hpp"
 #include "float_environment.hpp"
 #include "overlap.hpp"
-#include "planted.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill {
@@ -23,7 +22,6 @@ float round_sum(const Sum& sum) {
   const double error = std::fabs(estimate) * 0x1p-50;
   const float low = static_cast<float>(estimate - error), high = static_cast<float>(estimate + error);
   if (low == high) return low;
-  if (SUREFILL_PLANT(viewport_rung)) return static_cast<float>(estimate);
   return nearest_of_neighbours(low, high, [&](double midpoint) {
     Expansion<5> rest;
     for (int i = 0; i < sum.size(); ++i) rest.add(sum.term(i));

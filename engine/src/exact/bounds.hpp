@@ -10,7 +10,6 @@
 #include <cmath>
 #include <limits>
 
-#include "../planted.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill {
@@ -44,7 +43,7 @@ inline Reach reach(const double (&c)[3], const double (&w)[3]) {
       all_in_front = false;
     }
   }
-  if (all_in_front || SUREFILL_PLANT(box_behind_eye)) return r;
+  if (all_in_front) return r;
   r.low = std::nextafter(r.low, -kInfinity);
   r.high = std::nextafter(r.high, kInfinity);
   for (int i = 0; i < 3; ++i) {
@@ -59,8 +58,7 @@ inline Reach reach(const double (&c)[3], const double (&w)[3]) {
 
 // Pixels i of [first, last) with a sample coordinate i + offset in the reach, offset between the two given ones.
 inline void clip_to_reach(Reach r, double least_offset, double largest_offset, int* first, int* last) {
-  const double strict = SUREFILL_PLANT(box) ? 0x1p-40 : 0;
-  const double lowest = std::ceil(r.low - largest_offset), highest = std::floor(r.high - least_offset - strict);
+  const double lowest = std::ceil(r.low - largest_offset), highest = std::floor(r.high - least_offset);
   *first = static_cast<int>(std::clamp(lowest, static_cast<double>(*first), static_cast<double>(*last)));
   *last = static_cast<int>(std::clamp(highest + 1, static_cast<double>(*first), static_cast<double>(*last)));
 }

@@ -7,7 +7,6 @@
 
 #include <cmath>
 
-#include "../planted.hpp"
 #include "exact.hpp"
 #include "surefill/surefill.hpp"
 
@@ -51,8 +50,7 @@ struct EdgeFunction {
 
   // E at p in double, and a bound of its absolute error.
   double value(SamplePosition p, double* error_bound) const {
-    const double unit = SUREFILL_PLANT(edge_bound) ? 0x1p-56 : kEdgeErrorBound;
-    *error_bound = unit * ((std::fabs(a) * p.x + std::fabs(b) * p.y) + std::fabs(c));
+    *error_bound = kEdgeErrorBound * ((std::fabs(a) * p.x + std::fabs(b) * p.y) + std::fabs(c));
     return (a * p.x + b * p.y) + c;
   }
 
@@ -64,7 +62,7 @@ struct EdgeFunction {
     sum.add_product(-(jw * ky), p.x);
     sum.add_product(jw * kx, p.y);
     sum.add_product(-(jx * kw), p.y);
-    sum.add(SUREFILL_PLANT(expansion_rung) ? static_cast<float>(jx * ky) : jx * ky);
+    sum.add(jx * ky);
     sum.add(-(jy * kx));
     return sum;
   }
@@ -77,7 +75,7 @@ struct EdgeFunction {
       ++statistics.signs_by_filter;
       return sign_of(estimate);
     }
-    if (exact || SUREFILL_PLANT(residual_rung)) {
+    if (exact) {
       const DoublePair ax = two_product(a, p.x), by = two_product(b, p.y);
       const DoublePair ab = two_sum(ax.value, by.value), abc = two_sum(ab.value, c);
       if (ax.error == 0 && by.error == 0 && ab.error == 0 && abc.error == 0) {
@@ -131,7 +129,6 @@ inline TieShift tie_shift(FillRule rule) {
 // The sign that an edge function takes where it is 0 (C3). a and b are not both 0 there.
 inline int tie_sign(double a, double b, TieShift shift) {
   const int along_x = sign_of(a) * shift.x, along_y = sign_of(b) * shift.y;
-  if (SUREFILL_PLANT(tie_sign) && along_x == 0) return -along_y;
   if (shift.y_dominates) return along_y != 0 ? along_y : along_x;
   return along_x != 0 ? along_x : along_y;
 }
@@ -155,8 +152,7 @@ inline Expansion<12> exact_determinant(const Vertex& v0, const Vertex& v1, const
 inline int determinant_sign(const EdgeFunction& edge0, const Vertex& v0, Statistics& statistics) {
   const double ax = edge0.a * v0.x, by = edge0.b * v0.y, cw = edge0.c * v0.w;
   const double estimate = (ax + by) + cw;
-  const double unit = SUREFILL_PLANT(determinant_bound) ? 0x1p-56 : kEdgeErrorBound;
-  if (std::fabs(estimate) > unit * ((std::fabs(ax) + std::fabs(by)) + std::fabs(cw))) {
+  if (std::fabs(estimate) > kEdgeErrorBound * ((std::fabs(ax) + std::fabs(by)) + std::fabs(cw))) {
     ++statistics.signs_by_filter;
     return sign_of(estimate);
   }

@@ -15,7 +15,6 @@
 #include <limits>
 
 #include "../build_check.hpp"
-#include "../planted.hpp"
 
 namespace surefill {
 
@@ -97,7 +96,6 @@ float nearest_of_neighbours(float low, float high, SignAtMidpoint sign_at) {
   const double high_value = std::isinf(high) ? beyond : static_cast<double>(high);
   const double midpoint = low_value + (high_value - low_value) / 2;  // exact: 25 bits
   const int above = sign_at(midpoint);
-  if (SUREFILL_PLANT(halfway_case) && above == 0) return high;
   if (above != 0) return above > 0 ? high : low;
   return static_cast<float>(midpoint);  // ties to even, by the conversion itself
 }
@@ -119,7 +117,7 @@ inline bool round_interval(double low, double high, float* rounded) {
 template <std::size_t kNumerator, std::size_t kDenominator>
 float round_quotient(const Expansion<kNumerator>& numerator, const Expansion<kDenominator>& denominator) {
   const double quotient = numerator.estimate() / denominator.estimate();  // relative error below 2^-48
-  const double error = std::fabs(quotient) * (SUREFILL_PLANT(quotient_rung) ? 0x1p-56 : 0x1p-48);
+  const double error = std::fabs(quotient) * 0x1p-48;
   float rounded;
   if (round_interval(quotient - error, quotient + error, &rounded)) return rounded;
   // The interval is far narrower than the distance of floats: there is one midpoint in it, between these neighbours.

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "../planted.hpp"
-
 namespace surefill {
 namespace {
 
@@ -53,7 +51,7 @@ GuardCorner edge_corner(int plane, const Vertex& a, const Vertex& b) {
   const auto mean = [&](double at_a, double at_b) {
     Expansion<8> sum;
     sum.add_scaled(fb, fb.sign() * at_a);
-    sum.add_scaled(fa, fa.sign() * (SUREFILL_PLANT(guard_band_cut) && at_a < at_b ? at_b * (1 + 0x1p-20) : at_b));
+    sum.add_scaled(fa, fa.sign() * at_b);
     return sum;
   };
   GuardCorner corner;
@@ -161,7 +159,6 @@ double round_to_integer(double floor_of_t, int above_floor, int above_half, Grid
   const double up = floor_of_t + 1;
   switch (rounding) {
     case GridRounding::nearest_even:
-      if (SUREFILL_PLANT(snap_halfway) && above_half == 0) return up;
       if (above_half != 0) return above_half > 0 ? up : floor_of_t;
       return std::fmod(floor_of_t, 2) == 0 ? floor_of_t : up;
     case GridRounding::nearest_up:

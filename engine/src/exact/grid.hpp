@@ -7,7 +7,6 @@
 
 #include <cstdint>
 
-#include "../planted.hpp"
 #include "bounds.hpp"
 #include "triangle.hpp"
 
@@ -17,7 +16,7 @@ constexpr double kGuardBand = kMaxTargetSize + 1;  // g of G1: |X| <= g W and |Y
 
 // An estimate of a coordinate in units of the grid, |t| < 2^27, is a rounded value's neighbour only within this.
 inline double snap_error() {
-  return SUREFILL_PLANT(snap_bound) ? 0x1p-40 : 0x1p-21;
+  return 0x1p-21;
 }
 
 // c / w, which lies in [-g, g], rounded to the grid as G1 says: a position in pixels. w > 0.

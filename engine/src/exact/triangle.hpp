@@ -33,7 +33,6 @@ inline Approximation quotient(Approximation n, Approximation m) {
   const double smallest = std::fabs(m.value) - m.error;
   if (!(smallest > 0)) return {0, std::numeric_limits<double>::infinity()};
   const double q = n.value / m.value;
-  if (SUREFILL_PLANT(value_bound)) return {q, std::fabs(q) * 0x1p-54};
   return {q, ((n.error + std::fabs(q) * m.error) / smallest + std::fabs(q) * 0x1p-52) * (1 + 0x1p-20)};
 }
 
@@ -70,7 +69,7 @@ class Triangle {
     const Approximation q = approximate_depth(p);
     if (mode == DepthMode::clip) {
       const double low = q.value - q.error, high = q.value + q.error;
-      if (high < 0 || low > 1 || (SUREFILL_PLANT(clip_rung) && !(low >= 0 && high <= 1))) {
+      if (high < 0 || low > 1) {
         ++statistics.values_by_filter;
         return false;
       }

@@ -21,14 +21,13 @@ ROOMS = {
     "hwy": [],  # Highway's headers
     "engine/include": [],
     "engine/src/build_check.hpp": [],
-    "engine/src/planted.hpp": [],
     "engine/src/float_environment.hpp": ["engine/src/build_check.hpp"],
     "engine/src/frame.hpp": [*ENGINE],
     "engine/src/exact": [*ENGINE, "engine/src/build_check.hpp"],
     "engine/src/fast": [*ENGINE, "engine/src/exact", "engine/src/float_environment.hpp", "engine/src/frame.hpp",
-                        "engine/src/build_check.hpp", "engine/src/planted.hpp", "hwy"],
+                        "engine/src/build_check.hpp", "hwy"],
     "engine/src": [*ENGINE, "engine/src/exact", "engine/src/fast", "engine/src/float_environment.hpp", "engine/src/frame.hpp",
-                   "engine/src/build_check.hpp", "engine/src/planted.hpp", "hwy"],
+                   "engine/src/build_check.hpp", "hwy"],
     "python": [*ENGINE],
     "examples": [*ENGINE],  # those that embed the engine
     "oracle": [*ENGINE],

@@ -43,9 +43,7 @@ FOLDERS = ["properties/machinery", "properties/generators", "properties/theorems
 CHECKS = ["argument_check.cpp", "checks.cpp", "contract_checks.cpp", "judge.cpp", "mesh_checks.cpp"]
 LIBRARIES = ["-lfmt", "-lgmpxx", "-lgmp", "-lmpfr", "-ltinyobjloader", "-lpthread"]
 
-# SUREFILL_PLANT is false in the engine as it is shipped.
-SKIPPED = re.compile(r"constexpr|static_assert|template|#|using |operator|requires|case |Statistics|\+\+statistics|if \(SUREFILL_PLANT")
-PLANTED = re.compile(r"(?: \+ \()?SUREFILL_PLANT\(\w+\)(?:.* :(?: 0\))?|.*)")
+SKIPPED = re.compile(r"constexpr|static_assert|template|#|using |operator|requires|case |Statistics|\+\+statistics")
 OPERATOR = re.compile(r"(?<=[\w)\]]) (\+|-|\*|<|<=|>|>=|==|!=) (?=[\w(\-!&*])")
 LITERAL = re.compile(r"(?<=[ (])(\d+)()(?=[),;]| [-+*<>=?:])")
 STATEMENT = re.compile(r"^(\s+)([a-z_]\w*(?:(?:\.|->|\[|\().*| [-+*|&]?= .*)|\+\+\w.*|break|continue);$")
@@ -53,7 +51,6 @@ RETURN = re.compile(r"^\s+return (true|false);$")
 CONDITION = re.compile(r"^(\s*(?:\} else )?if) \((.*)\) (\{|return .*;|continue;|break;)$")
 
 # The fast path has bit sets, wider literals and statements of several lines, and calls that stand for vector operations.
-FAST_PLANTED = re.compile(r"SUREFILL_PLANT\(\w+\)[^:;]* :")
 FAST_OPERATOR = re.compile(r"(?<=[\w)\]]) (\+|-|\*|<|<=|>|>=|==|!=|&|\||<<|>>) (?!nullptr)(?=[\w(\-!&*~])")
 FAST_LITERAL = re.compile(r"(?<=[ (\[~])(\d+)(\.0f?|u|)(?=[),;\]}]| [-+*/<>=?:&|%])")
 FAST_STATEMENT = re.compile(r"^(\s+)((?:[a-z_]\w*(?:\.|->|\[|\(| [-+*|&]?= )|\+\+\w|[A-Z]\w*(?:<\w+>)?\((?!\))|hn::\w*Store\().*"
@@ -109,7 +106,6 @@ ALIVE = "surefill::mutant::alive<{N}>()"
 def candidates(line, fast, begins):
     """(kind, start, end, replacement with {N}) of the mutants of one line. begins: a statement may begin with it."""
     code = re.sub(r'"[^"]*"', lambda m: "_" * len(m[0]), line).split("//")[0].rstrip()  # no mutants within texts
-    code = (FAST_PLANTED if fast else PLANTED).sub(lambda m: "_" * len(m[0]), code)
     if SKIPPED.search(code) or not code.strip() or fast and COUNTERS.search(code):
         return
     if fast:  # sizes and alignments are constants of the compiler

@@ -268,7 +268,7 @@ class TileDrawer : public Fragments {
       return;
     }
     if (depth) SetUpDepth(r, plane);
-    const double dip = (SUREFILL_PLANT(hierarchical_z) ? 6 : 7) * plane.fall - error;
+    const double dip = 7 * plane.fall - error;
     const double dips[4] = {dip, dip + 8 * r.large.z_x, dip + 8 * r.large.z_y, dip + 8 * (r.large.z_x + r.large.z_y)};
     std::size_t blocks = 0;
     std::uint8_t block_list[kTileBlocks];  // whole blocks, of which `far` may become less

@@ -14,7 +14,6 @@
 #include "exact/exact_draw.hpp"
 #include "fast/tile.hpp"
 #include "hwy/highway.h"
-#include "planted.hpp"
 
 HWY_BEFORE_NAMESPACE();
 namespace surefill::fast::HWY_NAMESPACE {
@@ -309,7 +308,7 @@ class Splitter {
     low = hn::DemoteTo(df, hn::Sub(v, whole));
   }
   HWY_INLINE V Error(V error, double units) const {
-    const V sum = hn::Add(error, hn::Mul(power_, hn::Set(D(), SUREFILL_PLANT(parts_bound) ? 0 : units * 0x1p-46)));
+    const V sum = hn::Add(error, hn::Mul(power_, hn::Set(D(), units * 0x1p-46)));
     return hn::Add(hn::Mul(sum, hn::Set(D(), 1 + 0x1p-20)), hn::Set(D(), 0x1p-146));
   }
 

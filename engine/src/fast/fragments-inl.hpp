@@ -259,7 +259,6 @@ class Fragments {
   }
   // Is the triangle's identifier the smaller one?
   bool Before(std::uint32_t position, std::uint32_t other) const {
-    if (SUREFILL_PLANT(merge_order)) return position < other;
     const Draw& draw = *job_->draw;
     return with_identifiers_ ? draw.identifiers[position] < draw.identifiers[other] : position < other;
   }

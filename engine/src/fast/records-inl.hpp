@@ -141,8 +141,8 @@ class PieceWriter {
   // In the tiles of the box that no edge excludes. 1: far more than the error of an edge here.
   HWY_NOINLINE bool ListEdges(const Record& r) {
     const DoubleTag d;
-    const int tx0 = r.x0 >> kTileLog2, ty0 = r.y0 >> kTileLog2, ty1 = r.y1 >> kTileLog2;
-    const int tx1 = (r.x1 - (SUREFILL_PLANT(tile_border) ? 1 : 0)) >> kTileLog2;
+    const int tx0 = r.x0 >> kTileLog2, ty0 = r.y0 >> kTileLog2;
+    const int tx1 = r.x1 >> kTileLog2, ty1 = r.y1 >> kTileLog2;
     Double a[3], least[3];
     for (std::size_t k = 0; k < 3; ++k) {
       a[k] = hn::Set(d, r.large.a[k]);

@@ -119,10 +119,7 @@ HWY_NOINLINE void StoreEdges(const DrawJob& job, Group& group, const Double (&sc
   }
   const bool any_integer = (Bits(dd, integer) & group.lanes) != 0;
   batch.integer |= any_integer ? Bits(dd, integer) << lane : 0;
-  const Double bound =
-      hn::IfThenZeroElse(integer, hn::Set(dd, !kExactCoverage               ? 0
-                                              : SUREFILL_PLANT(small_bound) ? 2
-                                                                            : static_cast<double>(kSmallBound)));
+  const Double bound = hn::IfThenZeroElse(integer, hn::Set(dd, kExactCoverage ? static_cast<double>(kSmallBound) : 0));
   hn::Store(hn::DemoteTo(di, hn::Add(bound, bound)), di, batch.doubt + lane);
   const Double limit = hn::Set(dd, kEdgeLimit);
   for (std::size_t i = 0; i < 3; ++i) {
@@ -195,8 +192,7 @@ HWY_NOINLINE void StoreDepth(const DrawJob& job, const Group& group, Batch& batc
   // The first sample of a tile may lie 63 samples before the origin, on the way to which sums can be larger.
   const Double slopes = hn::Add(hn::Abs(zx), hn::Abs(zy)), way = hn::Mul(hn::Set(dd, 63.0), slopes);
   const Double evaluation = hn::Mul(hn::Set(dd, 2 * kEdgeErrorBound), hn::Add(size, way));
-  const Double total = hn::Mul(hn::Add(hn::Div(numerators, smallest), evaluation),
-                               hn::Set(dd, SUREFILL_PLANT(depth_bound) ? 0x1p-8 : 1 + 0x1p-20));
+  const Double total = hn::Mul(hn::Add(hn::Div(numerators, smallest), evaluation), hn::Set(dd, 1 + 0x1p-20));
   const auto known =
       hn::And(hn::Gt(smallest, hn::Zero(dd)), hn::Lt(hn::Add(hn::Add(size, way), total), hn::Set(dd, 1e37)));
   batch.slow_depth |= Bits(dd, hn::Not(known)) << lane;
@@ -380,10 +376,9 @@ std::uint32_t SetUpBatch(const DrawJob& job, std::uint32_t first, std::uint32_t 
   BatchVertices vertices{draw.vertices.data(), &draw.indices[std::size_t{3} * first]};
   std::uint32_t indices[3 * kBatch];
   for (std::uint32_t lane = 0; lane < kBatch; ++lane) batch.position[lane] = first + lane;
-  if (HWY_UNLIKELY(count < kBatch || SUREFILL_PLANT(batch_lane))) {
+  if (HWY_UNLIKELY(count < kBatch)) {
     for (std::uint32_t lane = 0; lane < kBatch; ++lane) {
-      const std::uint32_t of = SUREFILL_PLANT(batch_lane) && lane == 5 ? 4 : lane;
-      std::memcpy(indices + 3 * lane, vertices.indices + 3 * (of < count ? of : 0), 3 * sizeof(std::uint32_t));
+      std::memcpy(indices + 3 * lane, vertices.indices + 3 * (lane < count ? lane : 0), 3 * sizeof(std::uint32_t));
     }
     vertices.indices = indices;
   }

@@ -114,8 +114,8 @@ class TileDrawer : public Fragments {
           continue;
         }
         if (HWY_LIKELY(!r.has(Record::kClip))) {
-          // In order, so that of equal depths the first stays; depth alone does not tell.
-          if (((r.x0 ^ r.x1) | (r.y0 ^ r.y1)) < kCellSize && (!kWinner || slots_ == 0)) {
+          // In the order of the list in each cell, so that of equal depths the first stays; depth alone does not tell.
+          if (((r.x0 ^ r.x1) | (r.y0 ^ r.y1)) < kCellSize && !(kWinner && IsNoted(r))) {
             DrawOne(r);
             continue;
           }
@@ -137,7 +137,7 @@ class TileDrawer : public Fragments {
     if (!r.has(Record::kSmall)) return Large<false>(r, true);
     AddSmall(r, NeedsDepth(r));
     DrawSpecialCells<true>(partly_);
-    slots_ = 0, small_doubt_ = 0;
+    ForgetSmall();
   }
   static bool NeedsDepth(const Record& r) { return (kDepth || r.has(Record::kClip)) && !r.has(Record::kSlowDepth); }
 
@@ -166,7 +166,9 @@ class TileDrawer : public Fragments {
     const int last_column = ((r.x1 - tile_x_) >> kCellLog2) - column, last_row = ((r.y1 - tile_y_) >> kCellLog2) - row;
     const std::uint32_t columns = BitRange(-column, std::min(last_column, 15 - column)) & 15,
                         rows = BitRange(-row, std::min(last_row, 15 - row)) & 15;
-    partly_.Append(slots_, ~outside & (columns * 0x1111u) & kCellsOfRows[rows]);
+    const std::uint32_t cells = ~outside & (columns * 0x1111u) & kCellsOfRows[rows];
+    partly_.Append(slots_, cells);
+    for (int n = 0; kWinner && n < 4; ++n) noted_[row + 4 + n] |= (cells >> (4 * n) & 15) << (column + 4);
     small_doubt_ = std::max(small_doubt_, r.small.doubt);
     record_[slots_++] = &r;
   }
@@ -239,10 +241,19 @@ class TileDrawer : public Fragments {
     }
   }
 
+  // Does a small triangle that is noted meet the cell of this one?
+  HWY_INLINE bool IsNoted(const Record& r) const {
+    return (noted_[((r.y0 - tile_y_) >> kCellLog2) + 4] >> (((r.x0 - tile_x_) >> kCellLog2) + 4) & 1) != 0;
+  }
+  void ForgetSmall() {
+    slots_ = 0, small_doubt_ = 0;
+    if (kWinner) std::fill_n(noted_, 24, 0u);
+  }
+
   HWY_INLINE void DrawSmall() {
     if (slots_ == 0) return;
     ranged_ ? DrawCells<true, true>() : DrawCells<true, false>();
-    slots_ = 0, small_doubt_ = 0;
+    ForgetSmall();
   }
 
   // ---- large: the areas of the tile that the box meets and no edge excludes
@@ -632,6 +643,7 @@ class TileDrawer : public Fragments {
   std::size_t slots_ = 0;
   std::int32_t small_doubt_ = 0;  // the largest of those noted: at worst, doubts are looked into that are none
   const Record* record_[kSlots];
+  std::uint32_t noted_[24] = {};  // of each row of cells from -4 on, the columns from -4 on of cells that are noted
   CellList partly_, wholly_;
   std::uint32_t whole_tile_ = 0, whole_areas_[16] = {};
   float tile_far_ = 0;

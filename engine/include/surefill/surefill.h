@@ -230,10 +230,12 @@ typedef struct surefill_target {
 } surefill_target;
 
 /* Working memory that outlives calls: what one has allocated, the next ones with the same context use again. Several
- * calls at a time may share one: all but one of them then have memory of their own. NULL if there is no memory. */
+ * calls at a time may share one: all but one of them then have memory of their own. */
 typedef struct surefill_context surefill_context;
+/* An empty context; NULL if there is no memory. */
 SUREFILL_API surefill_context* surefill_context_create(void);
-SUREFILL_API void surefill_context_destroy(surefill_context* context); /* NULL does nothing */
+/* Frees the context and its memory, while no call uses it. NULL does nothing. */
+SUREFILL_API void surefill_context_destroy(surefill_context* context);
 
 /* How a frame is drawn. */
 typedef struct surefill_options {

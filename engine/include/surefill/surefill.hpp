@@ -87,6 +87,7 @@ SUREFILL_API const char* status_text(Status status) noexcept;
 // A pixel-homogeneous vertex [S2]. In an array: 16 bytes a vertex, no padding.
 struct Vertex {
   float x, y, z, w;
+  // Equality of numbers: -0 equals 0, a NaN equals nothing.
   bool operator==(const Vertex&) const = default;
 };
 
@@ -140,6 +141,7 @@ enum class GridRounding : std::uint8_t { nearest_even, nearest_up, truncate };  
 // Half-open pixel rectangle [x0, x1) x [y0, y1); any values, empty where x0 >= x1 or y0 >= y1 [M3].
 struct Scissor {
   int x0, y0, x1, y1;
+  // Equality, member by member.
   bool operator==(const Scissor&) const = default;
 };
 
@@ -148,6 +150,7 @@ struct Grid {
   int bits = 8;                    // 0..12
   int offset_x = 0, offset_y = 0;  // 0..15, in units of 2^-(bits + 4) pixels
   GridRounding rounding = GridRounding::nearest_even;
+  // Equality, member by member.
   bool operator==(const Grid&) const = default;
 };
 
@@ -171,8 +174,11 @@ struct DrawState {
   std::optional<Grid> grid;
   std::optional<std::array<Vertex, 8>> culling_box;  // corners whose hull contains the draw: the caller's promise [M6]
 
+  // Equality of numbers: -0 equals 0, a NaN equals nothing.
   bool operator==(const DrawState&) const = default;
+  // The state alone, of whatever has it as a base: `draw.state() = other.state()` copies it.
   DrawState& state() { return *this; }
+  // The same, to read.
   const DrawState& state() const { return *this; }
 };
 

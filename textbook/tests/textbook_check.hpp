@@ -132,6 +132,7 @@ inline std::vector<TriangleCase> corpus_triangles(std::int64_t largest_target, b
     if (!only_triangles || static_cast<std::int64_t>(scene.width) * scene.height > largest_target) continue;
     const corpus::Frame frame(scene, kCountOnly);
     for (const Draw& draw : frame.draws()) {
+      if (draw.fill_rule > FillRule::northwards_west) continue;  // the techniques know C3's rules, and not C5's
       for (std::size_t t = 0; t < draw.indices.size() / 3; ++t) {
         TriangleCase c{{}, scene.width, scene.height, samples ? scene.samples : 1, draw.fill_rule};
         for (std::size_t i = 0; i < 3; ++i) c.vertices[i] = draw.vertices[draw.indices[3 * t + i]];

@@ -44,18 +44,7 @@ for script in ../engine/proofs/*.g; do
 done
 [ -f "../engine/proofs/$name.g" ] || fail "no scripts"
 
-# The constants of scripts and sources are those that were compared.
-for script in ../engine/proofs/*.g; do
-  grep -q "^$(basename "$script") | " ../engine/proofs/constants.txt || fail "$(basename "$script") is not in engine/proofs/constants.txt"
-done
-while IFS= read -r line; do
-  [[ $line == \#* ]] && continue
-  script=${line%% | *} rest=${line#* | }
-  proved=${rest%% | *} rest=${rest#* | }
-  used=${rest%% | *}
-  grep -qF -- "$proved" "../engine/proofs/$script" || fail "engine/proofs/$script no longer proves \"$proved\" (constants.txt): look at $used"
-  grep -rqF -- "$used" ../engine/src || fail "engine/src no longer has \"$used\" (constants.txt): look at $script"
-done <../engine/proofs/constants.txt
+../engine/proofs/constants.sh
 
 cd "$work"
 accept flocq flocq.v

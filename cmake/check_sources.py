@@ -35,6 +35,7 @@ ROOMS = {
     "textbook": [*ENGINE, "engine/src/exact"],  # it shows the engine's own arithmetic
     "properties": SUITE[:-1],
     "proofs": SUITE,
+    "elsewhere": [*ENGINE, "corpus", "properties"],
     "certify/adapter.h": [],
     "certify/drivers": ["certify/adapter.h"],  # plugins: all they know of the suite
     "examples/rivals": ["certify/adapter.h"],  # the same

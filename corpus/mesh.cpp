@@ -19,6 +19,7 @@
 #include <system_error>
 #include <unordered_map>
 
+#include "corpus/float_text.hpp"
 #include "corpus/text_file.hpp"
 
 namespace surefill::meshes {
@@ -107,14 +108,14 @@ class Check {
     std::string_view digits = word;
     if (digits.starts_with('+')) digits.remove_prefix(1);
     float value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = corpus::float_from_chars(digits.data(), digits.data() + digits.size(), value);
     if (end != digits.data() + digits.size() || error == std::errc::invalid_argument) {
       fail(file_, line_, fmt::format("\"{}\" is not a number", word));
     }
     // Out of range: from_chars leaves the value alone. As IEEE 754 rounds: tiny becomes 0, huge an infinity.
     if (error == std::errc::result_out_of_range) {
       double wide = 0;
-      const auto wide_error = std::from_chars(digits.data(), digits.data() + digits.size(), wide).ec;
+      const auto wide_error = corpus::float_from_chars(digits.data(), digits.data() + digits.size(), wide).ec;
       if (wide_error != std::errc()) {
         fail(file_, line_, fmt::format("\"{}\" is out of the range of numbers", word));
       }

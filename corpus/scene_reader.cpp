@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "corpus/draw_fields.hpp"
+#include "corpus/float_text.hpp"
 #include "corpus/scene.hpp"
 #include "corpus/text_file.hpp"
 
@@ -186,7 +187,7 @@ class Reader {
       significand = significand.substr(0, significand.find_last_not_of('0') + 1);
     double value = 0;
     const auto [end, error] =
-        std::from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
+        float_from_chars(digits.data(), digits.data() + digits.size(), value, std::chars_format::hex);
     const bool begins_well = !digits.empty() && (is_digit(digits[0]) || (digits[0] >= 'a' && digits[0] <= 'f'));
     if (!begins_well || end != digits.data() + digits.size()) fail(quoted(field) + " is not a number");
     const std::size_t point = significand.find('.') == significand.npos ? 0 : 1;
@@ -200,7 +201,7 @@ class Reader {
 
   float decimal(std::string_view field, std::string_view digits) const {
     float value = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto [end, error] = float_from_chars(digits.data(), digits.data() + digits.size(), value);
     if (digits.empty() || !is_digit(digits[0]) || end != digits.data() + digits.size()) {
       fail(quoted(field) + " is not a number");
     }

@@ -3,6 +3,7 @@
 // B2: every argument is checked before anything is written.
 #include "arguments.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 
@@ -13,16 +14,16 @@
 namespace surefill {
 namespace {
 
-constexpr std::size_t kLargestIndex = std::numeric_limits<std::uint32_t>::max();
+constexpr std::uint64_t kLargestIndex = std::numeric_limits<std::uint32_t>::max();
 
 template <typename T>
 bool null_but_not_empty(std::span<T> s) {
   return s.data() == nullptr && !s.empty();
 }
 
-// Empty (not asked for), or a buffer of exactly `size` elements.
+// Empty (not asked for), or a buffer of exactly `size` elements. Sizes are computed in 64 bits, whatever std::size_t has.
 template <typename T>
-bool fits(std::span<T> buffer, std::size_t size) {
+bool fits(std::span<T> buffer, std::uint64_t size) {
   return buffer.empty() || (buffer.data() != nullptr && buffer.size() == size);
 }
 
@@ -36,10 +37,16 @@ bool samples_ok(const Target& target) {
   return n == 1 || n == 2 || n == 4 || n == 8 || n == 16;
 }
 
+// Of a target whose size and samples are good: at most 2^32.
+std::uint64_t samples_of(const Target& target) {
+  return static_cast<std::uint64_t>(target.width) * static_cast<std::uint64_t>(target.height) *
+         static_cast<std::uint64_t>(target.samples);
+}
+
 Status validate_target(const Target& target, Outputs& outputs) {
   if (!size_ok(target)) return Status::target_size;
   if (!samples_ok(target)) return Status::target_samples;
-  const std::size_t total = sample_total(target);
+  const std::uint64_t total = samples_of(target);
   if (!fits(target.count, total)) return Status::target_count;
   if (!fits(target.index, total)) return Status::target_index;
   if (!fits(target.depth, total)) return Status::target_depth;
@@ -81,9 +88,9 @@ Status validate_attributes(const Target& target, const Draw& draw) {
       return Status::draw_attributes;
     }
     if (attribute.stride != 0 && attribute.stride < attribute.components) return Status::draw_attributes;
-    const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
+    const std::uint64_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
     // Below 2^32 vertices and strides, so nothing overflows.
-    const std::size_t needed = draw.vertices.empty() ? 0 : (draw.vertices.size() - 1) * stride + attribute.components;
+    const std::uint64_t needed = draw.vertices.empty() ? 0 : (draw.vertices.size() - 1) * stride + attribute.components;
     if (null_but_not_empty(attribute.values) || attribute.values.size() < needed) return Status::draw_attributes;
     if (attribute.interpolation > Interpolation::flat) return Status::draw_attribute_interpolation;
   }
@@ -98,9 +105,8 @@ bool has_no_triangle(std::span<const std::uint32_t> identifiers) {
 }
 
 Status validate_draw(const Target& target, const Draw& draw, const Outputs& outputs) {
-  static_assert(sizeof(std::size_t) == 8, "sizes are checked in 64 bits");
-  if (null_but_not_empty(draw.vertices) || draw.vertices.size() > kLargestIndex) return Status::draw_vertices;
-  const std::size_t triangles = draw.indices.size() / 3;
+  const std::uint64_t vertices = draw.vertices.size(), triangles = draw.indices.size() / 3;
+  if (null_but_not_empty(draw.vertices) || vertices > kLargestIndex) return Status::draw_vertices;
   if (null_but_not_empty(draw.indices) || draw.indices.size() % 3 != 0 || triangles >= kLargestIndex) {
     return Status::draw_indices;
   }
@@ -151,8 +157,8 @@ Status validate_frame(const Target& target, std::span<const Draw> draws, Outputs
 
 std::size_t sample_total(const Target& target) noexcept {
   if (!size_ok(target) || !samples_ok(target)) return 0;
-  return static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height) *
-         static_cast<std::size_t>(target.samples);
+  const std::uint64_t largest = std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(std::min(samples_of(target), largest));  // no buffer has so many elements
 }
 
 Status validate(const Target& target, std::span<const Draw> draws) noexcept {

@@ -13,12 +13,12 @@
 namespace surefill {
 
 struct Bytes {
-  std::uintptr_t begin = 0, end = 0;
+  std::uint64_t begin = 0, end = 0;  // in 64 bits: memory may end where the addresses do
 
   Bytes() = default;
-  Bytes(const void* data, std::size_t size) : begin(reinterpret_cast<std::uintptr_t>(data)), end(begin + size) {}
+  Bytes(const void* data, std::uint64_t size) : begin(reinterpret_cast<std::uintptr_t>(data)), end(begin + size) {}
   template <typename T>
-  explicit Bytes(std::span<T> s) : Bytes(s.data(), s.size_bytes()) {}
+  explicit Bytes(std::span<T> s) : Bytes(s.data(), s.size() * std::uint64_t{sizeof(T)}) {}
   // Of one object, which may be null.
   template <typename T>
   static Bytes of(const T* object) {

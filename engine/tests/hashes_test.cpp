@@ -5,20 +5,16 @@
 // change of the rules or of the scenes: SUREFILL_RECORD_HASHES=1 surefill_tests --gtest_filter='Hashes*'.
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <cstdint>
-#include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
-#include <vector>
 
-#include "corpus/outputs.hpp"
+#include "corpus/hash.hpp"
 #include "corpus/scene.hpp"
-#include "properties/generators/generators.hpp"
-#include "properties/machinery/compare.hpp"
+#include "properties/generators/hashed_scenes.hpp"
 #include "surefill/surefill.hpp"
 
 #if !defined(SUREFILL_REFERENCE_ONLY)
@@ -27,39 +23,6 @@
 
 namespace surefill::properties {
 namespace {
-
-// FNV-1a of 64 bits.
-class Hash {
- public:
-  void add(std::uint32_t word) {
-    for (int i = 0; i < 4; ++i) value_ = (value_ ^ (word >> (8 * i) & 0xFF)) * 0x100000001B3u;
-  }
-  void add(const std::vector<std::uint32_t>& words) {
-    for (const std::uint32_t word : words) add(word);
-  }
-  void add(const std::vector<float>& values) {
-    for (const float value : values) add(std::bit_cast<std::uint32_t>(value));
-  }
-  std::string text() const {
-    char digits[17];
-    std::snprintf(digits, sizeof digits, "%016llx", static_cast<unsigned long long>(value_));
-    return digits;
-  }
-
- private:
-  std::uint64_t value_ = 0xCBF29CE484222325u;
-};
-
-std::string hash_of(const corpus::Scene& scene, const Options& options) {
-  corpus::Frame frame(scene, outputs_of(scene));
-  const Status status = render(frame.target(), frame.draws(), nullptr, options);
-  if (status != Status::ok) return status_text(status);
-  const corpus::Image& image = frame.image();
-  Hash hash;
-  corpus::for_each_output([&](const auto& output) { hash.add(image.*output.image); });
-  for (const auto& attribute : image.attributes) hash.add(attribute);
-  return hash.text();
-}
 
 // By name: the corpus, and three random scenes of each category.
 std::map<std::string, corpus::Scene> scenes() {
@@ -74,14 +37,7 @@ std::map<std::string, corpus::Scene> scenes() {
     }
     all[std::filesystem::relative(path, root).generic_string()] = std::move(scene);
   }
-  for (const Category& category : categories()) {
-    for (std::uint64_t seed = 0; seed < 3; ++seed) {
-      SceneLimits limits;
-      limits.max_size = 180, limits.max_triangles = 12;
-      limits.samples = seed == 1;
-      all[std::string("random/") + category.name + "/" + std::to_string(seed)] = random_scene(category, seed, limits);
-    }
-  }
+  for_each_hashed_scene([&](const std::string& name, const corpus::Scene& scene) { all[name] = scene; });
   return all;
 }
 
@@ -99,7 +55,8 @@ TEST(Hashes, AreTheRecordedOnes) {
   const auto all = scenes();
   if (std::getenv("SUREFILL_RECORD_HASHES") != nullptr) {
     std::ofstream file(kFile);
-    for (const auto& [name, scene] : all) file << hash_of(scene, {.path = Path::reference}) << ' ' << name << '\n';
+    for (const auto& [name, scene] : all)
+      file << corpus::hash_of(scene, {.path = Path::reference}) << ' ' << name << '\n';
     return;
   }
   const auto expected = recorded();
@@ -109,7 +66,7 @@ TEST(Hashes, AreTheRecordedOnes) {
     for (const auto& [name, scene] : all) {
       const auto found = expected.find(name);
       ASSERT_NE(found, expected.end()) << "no hash of " << name;
-      EXPECT_EQ(hash_of(scene, options), found->second) << name << " " << where;
+      EXPECT_EQ(corpus::hash_of(scene, options), found->second) << name << " " << where;
     }
   };
   check({.path = Path::reference}, "on the reference path");

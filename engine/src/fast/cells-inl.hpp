@@ -31,14 +31,15 @@ alignas(64) constexpr std::int32_t kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 
 alignas(64) constexpr float kColumnFloat[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr float kRowFloat[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
 
-// The positions of the set bits of a byte, in order, and zeros.
+// The positions of the set bits of a byte, in order in memory, and zeros.
 struct BitPositions {
   std::uint64_t of[256];
+  static constexpr unsigned shift_of(unsigned n) { return 8 * (std::endian::native == std::endian::big ? 7 - n : n); }
   constexpr BitPositions() : of() {
     for (unsigned byte = 0; byte < 256; ++byte) {
       unsigned n = 0;
       for (unsigned bit = 0; bit < 8; ++bit) {
-        if ((byte >> bit & 1) != 0) of[byte] |= std::uint64_t{bit} << (8 * n++);
+        if ((byte >> bit & 1) != 0) of[byte] |= std::uint64_t{bit} << shift_of(n++);
       }
     }
   }
@@ -56,8 +57,8 @@ struct CellList {
     const std::uint64_t base = slot * 16 * 0x0101010101010101u;
     const std::uint64_t first = kBitPositions.of[low] + base;
     const std::uint64_t second = kBitPositions.of[high] + base + 0x0808080808080808u;
-    const std::size_t begin = size, middle = begin + static_cast<std::size_t>(__builtin_popcount(low));
-    size = middle + static_cast<std::size_t>(__builtin_popcount(high));
+    const std::size_t begin = size, middle = begin + static_cast<std::size_t>(std::popcount(low));
+    size = middle + static_cast<std::size_t>(std::popcount(high));
     std::memcpy(items + begin, &first, 8);
     std::memcpy(items + middle, &second, 8);
   }

@@ -88,10 +88,17 @@ class TileDrawer : public Fragments {
   HWY_INLINE void AskNextTile(std::size_t part) const {
     if (!next_is_open_ || part >= 64) return;
     for (std::size_t line = 4 * part; line < 4 * part + 4; ++line) {
-      if (kDepth) __builtin_prefetch(depth_ + kTileSamples + 16 * line, 0, 2);
-      if (kWinner) __builtin_prefetch(winner_ + kTileSamples + 16 * line, 0, 2);
-      if (kCount) __builtin_prefetch(count_ + kTileSamples + 16 * line, 0, 2);
+      if (kDepth) AskLater(depth_ + kTileSamples + 16 * line);
+      if (kWinner) AskLater(winner_ + kTileSamples + 16 * line);
+      if (kCount) AskLater(count_ + kTileSamples + 16 * line);
     }
+  }
+  static HWY_INLINE void AskLater(const void* p) {
+#if HWY_COMPILER_MSVC
+    hwy::Prefetch(static_cast<const char*>(p));
+#else
+    __builtin_prefetch(p, 0, 2);
+#endif
   }
 
   // Draws records of one draw in their order.
@@ -139,7 +146,9 @@ class TileDrawer : public Fragments {
     DrawSpecialCells<true>(partly_);
     ForgetSmall();
   }
-  static bool NeedsDepth(const Record& r) { return (kDepth || r.has(Record::kClip)) && !r.has(Record::kSlowDepth); }
+  static bool NeedsDepth(const Record& r) {
+    return (kDepth || r.has(Record::kClip)) && !r.has(Record::kSlowDepth);
+  }
 
   // ---- small: within 4 x 4 cells. Noted in a slot, and drawn with others
   HWY_INLINE void AddSmall(const Record& r, bool depth) {
@@ -285,7 +294,7 @@ class TileDrawer : public Fragments {
     std::uint8_t block_list[kTileBlocks];  // whole blocks, of which `far` may become less
     CellList doubtful;                     // cells that are drawn as special ones
     for (; possible != 0; possible &= possible - 1) {
-      const auto n = static_cast<std::uint32_t>(__builtin_ctz(possible));
+      const auto n = static_cast<std::uint32_t>(std::countr_zero(possible));
       std::uint32_t full = 0;
       std::uint32_t cells = SetUpCells<kThin>(plane, n, special || clip == Clip::some, full);
       cells &= (columns >> (n & 3) * 4 & 15) * 0x1111u & kCellsOfRows[rows >> (n >> 2) * 4 & 15];
@@ -296,7 +305,7 @@ class TileDrawer : public Fragments {
         std::uint32_t whole = cells & full;  // of each whole block, its first cell
         whole &= whole >> 1, whole &= (whole >> 4) & 0x0505;
         for (; whole != 0; whole &= whole - 1) {
-          const auto cell = static_cast<std::uint32_t>(__builtin_ctz(whole));
+          const auto cell = static_cast<std::uint32_t>(std::countr_zero(whole));
           block_list[blocks++] =
               static_cast<std::uint8_t>(((n >> 2) * 2 + (cell >> 3)) * 8 + (n & 3) * 2 + (cell >> 1 & 1));
         }

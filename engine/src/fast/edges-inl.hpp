@@ -36,11 +36,9 @@ HWY_INLINE std::uint32_t Bits(D d, M mask) {
 #elif HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128
   return static_cast<std::uint32_t>(hn::detail::BitsFromMask(mask)) & ((1u << hn::Lanes(d)) - 1);
 #else
-  std::uint8_t bytes[8] = {};
+  std::uint8_t bytes[8] = {};  // of 16 lanes at most, in any order of bytes
   hn::StoreMaskBits(d, mask, bytes);
-  std::uint32_t bits;
-  std::memcpy(&bits, bytes, sizeof bits);
-  return bits;
+  return bytes[0] | std::uint32_t{bytes[1]} << 8;
 #endif
 }
 
@@ -223,7 +221,7 @@ HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(const Draw& draw, const std::uint32_
   alignas(64) double signs[kBatch];
   hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
   for (; uncertain != 0; uncertain &= uncertain - 1) {
-    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(uncertain));
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(uncertain));
     const int sign = orientation(draw, positions[lane], statistics);
     signs[lane] = sign < 0 ? -1 : 1;
     if (sign == 0) degenerate |= 1u << lane;

@@ -76,11 +76,11 @@ class Fragments {
   // The lanes `bits` from an offset on: covered ones, and those that may be.
   void ExactLanes(const Record& r, std::uint32_t bits, std::size_t offset, bool counted) {
     for (; bits != 0; bits &= bits - 1)
-      ExactFragment(r, offset + static_cast<std::size_t>(__builtin_ctz(bits)), counted);
+      ExactFragment(r, offset + static_cast<std::size_t>(std::countr_zero(bits)), counted);
   }
   HWY_NOINLINE void SettleLanes(const Record& r, std::uint32_t bits, std::size_t offset) {
     for (; bits != 0; bits &= bits - 1) {
-      const std::size_t at = offset + static_cast<std::size_t>(__builtin_ctz(bits));
+      const std::size_t at = offset + static_cast<std::size_t>(std::countr_zero(bits));
       if (Covers(r, at)) ExactFragment(r, at, false);
     }
   }
@@ -135,7 +135,7 @@ class Fragments {
       alignas(64) float depths[kCellLanes];
       hn::Store(low, df, depths);
       for (std::uint32_t bits = Bits(df, lanes); bits != 0; bits &= bits - 1) {
-        const auto k = static_cast<std::size_t>(__builtin_ctz(bits));
+        const auto k = static_cast<std::size_t>(std::countr_zero(bits));
         if (Passes(r.position, depths[k], offset + k)) Store(r.position, depths[k], offset + k);
       }
     } else {
@@ -162,7 +162,7 @@ class Fragments {
     CoverageBlock blocks[kTileBlocks];
     std::size_t n = 0;
     for (; marked_ != 0; marked_ &= marked_ - 1) {
-      const auto block = static_cast<std::size_t>(__builtin_ctzll(marked_));
+      const auto block = static_cast<std::size_t>(std::countr_zero(marked_));
       blocks[n++] = {job_->number,
                      position,
                      tile_x_ + static_cast<int>(block & 7) * kBlockSize,
@@ -238,7 +238,7 @@ class Fragments {
       return;
     }
     if (count_ == nullptr) return;
-    for (; bits != 0; bits &= bits - 1) ++count_[offset + static_cast<std::size_t>(__builtin_ctz(bits))];
+    for (; bits != 0; bits &= bits - 1) ++count_[offset + static_cast<std::size_t>(std::countr_zero(bits))];
   }
 
   void Store(std::uint32_t position, float z, std::size_t offset) {

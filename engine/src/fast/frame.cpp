@@ -279,7 +279,7 @@ class Frame {
 }  // namespace
 
 bool supports(std::span<const Draw> draws) {
-  std::size_t triangles = 0;
+  std::uint64_t triangles = 0;
   for (const Draw& draw : draws) {
     triangles += draw.indices.size() / 3;
     if (triangles >= kNoTriangle) return false;

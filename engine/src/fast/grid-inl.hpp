@@ -59,7 +59,7 @@ HWY_NOINLINE std::uint32_t Snap(const Grid& grid, Batch& batch, Statistics& stat
       hn::Store(at_x, dd, batch.corner_x[k] + lane);
       hn::Store(at_y, dd, batch.corner_y[k] + lane);
       for (std::uint32_t rest = Bits(dd, hn::And(unsure, whole)); rest != 0; rest &= rest - 1) {
-        const auto l = lane + static_cast<std::uint32_t>(__builtin_ctz(rest));
+        const auto l = lane + static_cast<std::uint32_t>(std::countr_zero(rest));
         if ((batch.finite >> l & 1) == 0) continue;
         batch.corner_x[k][l] = snapped_position(batch.x[k][l], batch.w[k][l], grid.offset_x, grid, statistics);
         batch.corner_y[k][l] = snapped_position(batch.y[k][l], batch.w[k][l], grid.offset_y, grid, statistics);
@@ -67,7 +67,7 @@ HWY_NOINLINE std::uint32_t Snap(const Grid& grid, Batch& batch, Statistics& stat
     }
   }
   for (std::uint32_t rest = others; rest != 0; rest &= rest - 1) {  // an empty box
-    const auto l = static_cast<std::size_t>(__builtin_ctz(rest));
+    const auto l = static_cast<std::size_t>(std::countr_zero(rest));
     for (std::size_t k = 0; k < 3; ++k) batch.corner_x[k][l] = batch.corner_y[k][l] = -4 * kGuardBand;
   }
   return others;
@@ -136,7 +136,7 @@ HWY_NOINLINE hn::Mask<DoubleTag> SnappedSigns(const Grid& grid, const Batch& bat
   alignas(64) double signs[kBatch];
   hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
   for (; uncertain != 0; uncertain &= uncertain - 1) {
-    const auto n = static_cast<std::uint32_t>(__builtin_ctz(uncertain));
+    const auto n = static_cast<std::uint32_t>(std::countr_zero(uncertain));
     const auto x = [&](std::size_t k) { return batch.corner_x[k][lane + n]; };
     const auto y = [&](std::size_t k) { return batch.corner_y[k][lane + n]; };
     // E_0 at corner 0.
@@ -167,7 +167,7 @@ HWY_INLINE void SnappedDepthRange(const DrawJob& job, std::uint32_t lane, Batch&
 HWY_NOINLINE void FindClipped(const DrawJob& job, Batch& batch, Statistics& statistics) {
   SnappedTriangle snapped;
   for (std::uint32_t rest = batch.clipped; rest != 0; rest &= rest - 1) {
-    const std::uint32_t lane = static_cast<std::uint32_t>(__builtin_ctz(rest)), bit = rest & (0 - rest);
+    const std::uint32_t lane = static_cast<std::uint32_t>(std::countr_zero(rest)), bit = rest & (0 - rest);
     const auto vertex = [&](std::size_t k) { return VertexOf(*job.draw, batch.position[lane], k); };
     const bool some = snapped.set_up(vertex(0), vertex(1), vertex(2), *job.draw->grid, statistics);
     if (!some) batch.degenerate |= bit;

@@ -5,9 +5,9 @@
 #define SUREFILL_SRC_FAST_RECORD_HPP
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 
 #include "exact/bounds.hpp"
 #include "exact/edge.hpp"
@@ -90,10 +90,7 @@ struct TileEdges {
  private:
   // For |v| < 2^31: the sum with 1.5 * 2^52 has it in its low bits.
   static std::int32_t nearest(double v) {
-    v += 0x1.8p52;
-    std::uint64_t bits;
-    std::memcpy(&bits, &v, sizeof bits);
-    return static_cast<std::int32_t>(static_cast<std::uint32_t>(bits));
+    return static_cast<std::int32_t>(static_cast<std::uint32_t>(std::bit_cast<std::uint64_t>(v + 0x1.8p52)));
   }
 };
 

@@ -161,7 +161,7 @@ class PieceWriter {
         }
         std::uint32_t possible = ~Bits(d, outside) & kGroupLanes;
         if (tx1 - tx + 1 < static_cast<int>(kGroup)) possible &= (1u << (tx1 - tx + 1)) - 1;
-        for (; possible != 0; possible &= possible - 1) Pair(tx + __builtin_ctz(possible), ty);
+        for (; possible != 0; possible &= possible - 1) Pair(tx + std::countr_zero(possible), ty);
       }
     }
     return true;
@@ -190,7 +190,7 @@ HWY_NOINLINE bool AddClipped(const DrawJob& job, std::uint32_t position, PieceWr
   const auto before = writer.Now();
   bool fits = !turns;
   for (; fits && lanes != 0; lanes &= lanes - 1) {
-    const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+    const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
     fits = writer.Add(fan, lane, lane + 1);
   }
   if (fits) return true;
@@ -203,7 +203,7 @@ HWY_NOINLINE bool AddClipped(const DrawJob& job, std::uint32_t position, PieceWr
 // Counts lanes of a batch, by what becomes of them.
 HWY_INLINE void CountLanes(const DrawJob& job, const Batch& batch, std::uint32_t lanes, std::uint32_t drawn,
                            Statistics& statistics) {
-  const auto ones = [lanes](std::uint32_t set) { return static_cast<std::uint64_t>(__builtin_popcount(set & lanes)); };
+  const auto ones = [lanes](std::uint32_t set) { return static_cast<std::uint64_t>(std::popcount(set & lanes)); };
   // Under Grid, facing and emptiness are matters of the sample (G1).
   const bool grid = job.draw->grid.has_value();
   const std::uint32_t reached = batch.reached | batch.clipped;
@@ -232,7 +232,7 @@ void SetUp(const TileGrid& grid, Piece& piece, Scratch& scratch, Statistics& sta
     if (HWY_UNLIKELY(batch.clipped != 0)) FindClipped(job, batch, statistics);
     std::uint32_t done = count;
     for (std::uint32_t lanes = drawn | batch.clipped; lanes != 0; lanes &= lanes - 1) {
-      const auto lane = static_cast<std::uint32_t>(__builtin_ctz(lanes));
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       const bool clipped = HWY_UNLIKELY((batch.clipped >> lane & 1) != 0);
       const auto before = writer.Now();
       fits = clipped ? AddClipped(job, first + lane, writer) : writer.Add(batch, lane, 0);

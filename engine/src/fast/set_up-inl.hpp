@@ -69,7 +69,7 @@ HWY_NOINLINE void SetUpBoxes(const DrawJob& job, const BatchVertices& vertices, 
   const bool grid = job.draw->grid.has_value();
   for (std::uint32_t mixed = grid ? 0 : ~batch.front & batch.finite & all; HWY_UNLIKELY(mixed != 0);
        mixed &= mixed - 1) {
-    const auto l = static_cast<std::uint32_t>(__builtin_ctz(mixed));
+    const auto l = static_cast<std::uint32_t>(std::countr_zero(mixed));
     const PixelBox box =
         screen_box(vertices.of(l, 0), vertices.of(l, 1), vertices.of(l, 2), region,
                    over ? 0 : std::min(job.sample.x, job.sample.y), over ? 1 : std::max(job.sample.x, job.sample.y));

@@ -135,11 +135,11 @@ class Shader {
     }
     first_sample_ = frame_.sample_index(x0, y);
     for (std::uint32_t rest = ~seen & ((1u << columns) - 1); rest != 0; rest &= rest - 1)
-      Clear(SampleOf(static_cast<std::uint32_t>(__builtin_ctz(rest))));
+      Clear(SampleOf(static_cast<std::uint32_t>(std::countr_zero(rest))));
     Pixels pixels;
     for (std::uint32_t l = 0; l < kBatch; ++l) pixels.x[l] = x0 + kCentre[l], pixels.y[l] = y + 0.5;
     for (; seen != 0; seen &= ~pixels.lanes) {
-      const std::uint32_t some = winners[__builtin_ctz(seen)];
+      const std::uint32_t some = winners[std::countr_zero(seen)];
       draw_ = frame_.draw_of(some, draw_);
       const std::uint32_t first = frame_.draws[draw_].first_ordinal,
                           triangles = static_cast<std::uint32_t>(draw().indices.size() / 3);
@@ -157,7 +157,7 @@ class Shader {
       }
       if (HWY_UNLIKELY(target_.samples > 1)) {
         for (std::uint32_t rest = pixels.lanes; rest != 0; rest &= rest - 1) {
-          const auto l = static_cast<std::uint32_t>(__builtin_ctz(rest));
+          const auto l = static_cast<std::uint32_t>(std::countr_zero(rest));
           const SamplePosition p = PositionOf(pixels.position[l], x0 + static_cast<int>(l), y);
           pixels.x[l] = p.x, pixels.y[l] = p.y;
         }
@@ -251,7 +251,7 @@ class Shader {
       const auto values_of = [&](std::size_t l, std::size_t k) { return ValuesOf(in, pixels, lane + l, k); };
       if (in.interpolation == Interpolation::flat) {
         for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-          const auto l = static_cast<std::uint32_t>(__builtin_ctz(rest));
+          const auto l = static_cast<std::uint32_t>(std::countr_zero(rest));
           float* const to = out.values + SampleOf(lane + l) * out.components;
           for (std::uint32_t c = 0; c < out.components; ++c) to[c] = values_of(l, 0)[c] + 0.0f;
         }
@@ -309,7 +309,7 @@ class Shader {
       nearest[c] = hn::Add(low, hn::Zero(df));
       unknown[c] = c < out.components ? (~Bits(df, told) | exactly) & lanes : 0;
       statistics_.values_by_filter +=
-          c < out.components ? static_cast<std::uint32_t>(__builtin_popcount(lanes & ~unknown[c])) : 0;
+          c < out.components ? static_cast<std::uint32_t>(std::popcount(lanes & ~unknown[c])) : 0;
       any |= unknown[c];
     }
     float* const row = out.values + SampleOf(lane) * out.components;
@@ -321,7 +321,7 @@ class Shader {
     alignas(64) float fours[4 * kLanes];
     hn::StoreInterleaved4(nearest[0], nearest[1], nearest[2], nearest[3], df, fours);
     for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
-      const auto l = static_cast<std::uint32_t>(__builtin_ctz(rest));
+      const auto l = static_cast<std::uint32_t>(std::countr_zero(rest));
       CopyComponents(fours + 4 * l, out.components, out.values + SampleOf(lane + l) * out.components);
     }
     if (HWY_UNLIKELY(any != 0)) ExactValues(pixels, lane, unknown, out);
@@ -334,7 +334,7 @@ class Shader {
     const AttributeArray* const in = barycentrics ? nullptr : &draw().attributes[out.attribute];
     for (std::uint32_t c = 0; c < out.components; ++c) {
       for (std::uint32_t rest = unknown[c]; rest != 0; rest &= rest - 1) {
-        const std::uint32_t l = lane + static_cast<std::uint32_t>(__builtin_ctz(rest));
+        const std::uint32_t l = lane + static_cast<std::uint32_t>(std::countr_zero(rest));
         float u[3];
         for (std::uint32_t k = 0; k < 3; ++k)
           u[k] = barycentrics ? (k == c ? 1.0f : 0.0f) : ValuesOf(*in, pixels, l, k)[c];

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "float_environment.hpp"
+#include "hwy/cache_control.h"
 #include "surefill/surefill.hpp"
 
 namespace surefill::fast {
@@ -95,9 +96,7 @@ class Team {
   static bool spin(const Done& done) {
     for (int i = 0; i < 300; ++i) {
       if (done()) return true;
-#if defined(__x86_64__) || defined(__i386__)
-      __builtin_ia32_pause();
-#endif
+      hwy::Pause();
     }
     return false;
   }

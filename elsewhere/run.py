@@ -1,0 +1,204 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""The same bits elsewhere: builds the engine for other machines, and with other compilers and options, runs every line of
+corpus/hashes.txt there, and prints a table.
+
+usage: elsewhere/run.py [--packages] [--reference] NAME...
+
+A NAME is an architecture, a level (compiler and options for this machine), or one of the groups `architectures` and `levels`.
+--packages prints the Debian packages that they need, and does nothing else. --reference runs the reference path alone.
+Builds go to build/elsewhere/NAME. Exit 0: all lines are equal everywhere; 1: not; 2: wrong usage.
+"""
+import concurrent.futures
+import dataclasses
+import os
+import pathlib
+import re
+import subprocess
+import sys
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+BUILD = ROOT / "build" / "elsewhere"
+PARTS = os.cpu_count() or 1
+
+
+@dataclasses.dataclass
+class Machine:
+    compiler: str
+    packages: list = dataclasses.field(default_factory=list)
+    run: list = dataclasses.field(default_factory=list)  # before the program; nothing where this machine runs it
+    cmake: list = dataclasses.field(default_factory=list)
+    flags: str = ""
+    link: str = ""
+    ending: str = ""  # of programs
+    paths: tuple = ("fast", "reference")
+    emulator: str = ""  # what says its version, where there is one
+
+
+def cross(name, processor, qemu, **more):
+    return Machine(f"{name}-g++", [f"g++-{name}", "qemu-user"], [f"qemu-{qemu}"],
+                   ["-DCMAKE_SYSTEM_NAME=Linux", f"-DCMAKE_SYSTEM_PROCESSOR={processor}", f"-DCMAKE_C_COMPILER={name}-gcc"],
+                   link="-static", emulator=f"qemu-{qemu}", **more)
+
+
+ARCHITECTURES = {
+    "aarch64": cross("aarch64-linux-gnu", "aarch64", "aarch64"),
+    "s390x": cross("s390x-linux-gnu", "s390x", "s390x"),
+    "wasm32": Machine("clang++-19",
+                      ["clang-19", "lld-19", "wasi-libc", "libc++-19-dev-wasm32", "libc++abi-19-dev-wasm32", "libclang-rt-19-dev-wasm32",
+                       "nodejs"],
+                      ["node", "--no-warnings", str(ROOT / "elsewhere" / "wasi.mjs")],
+                      ["-DCMAKE_SYSTEM_NAME=Generic", "-DCMAKE_SYSTEM_PROCESSOR=wasm32", "-DCMAKE_C_COMPILER=clang-19",
+                       "-DCMAKE_CXX_COMPILER_TARGET=wasm32-wasi", "-DCMAKE_C_COMPILER_TARGET=wasm32-wasi",
+                       "-DSUREFILL_REFERENCE_ONLY=ON"],
+                      # The reader throws where a scene is wrong, which none of these is.
+                      flags="-fignore-exceptions", link="-Wl,-z,stack-size=8388608", paths=("reference",), emulator="node"),
+    "ppc64le": cross("powerpc64le-linux-gnu", "ppc64le", "ppc64le"),
+    "riscv64": cross("riscv64-linux-gnu", "riscv64", "riscv64"),
+    "armhf": cross("arm-linux-gnueabihf", "armv7l", "arm"),
+    "i686": Machine("i686-linux-gnu-g++", ["g++-i686-linux-gnu"], [],
+                    ["-DCMAKE_SYSTEM_NAME=Linux", "-DCMAKE_SYSTEM_PROCESSOR=i686", "-DCMAKE_C_COMPILER=i686-linux-gnu-gcc"],
+                    flags="-msse2 -mfpmath=sse", link="-static"),
+    "windows": Machine("x86_64-w64-mingw32-g++-posix", ["g++-mingw-w64-x86-64-posix", "wine64"], ["/usr/lib/wine/wine64"],
+                       ["-DCMAKE_SYSTEM_NAME=Windows", "-DCMAKE_SYSTEM_PROCESSOR=x86_64",
+                        "-DCMAKE_C_COMPILER=x86_64-w64-mingw32-gcc-posix"],
+                       link="-static", ending=".exe", emulator="/usr/lib/wine/wine64"),
+}
+
+
+def level(compiler, flags, **more):
+    return Machine(compiler, flags=flags, cmake=["-DCMAKE_BUILD_TYPE=None"], **more)
+
+
+CLANG = ["clang-19", "lld-19"]
+LEVELS = {f"g++{flag}": level("g++", flag) for flag in ("-O0", "-O1", "-O2", "-O3", "-Os")}
+LEVELS |= {"g++-march=native": level("g++", "-O2 -march=native"), "g++-flto": level("g++", "-O2 -flto=auto")}
+LEVELS |= {f"clang++-19{flag}": level("clang++-19", flag, packages=CLANG) for flag in ("-O0", "-O2", "-O3")}
+LEVELS |= {
+    "clang++-19-march=native": level("clang++-19", "-O2 -march=native", packages=CLANG),
+    "clang++-19-flto": level("clang++-19", "-O2 -flto=thin", link="-fuse-ld=lld-19", packages=CLANG),
+    "clang++-19-stdlib=libc++": level("clang++-19", "-O2 -stdlib=libc++", packages=[*CLANG, "libc++-19-dev", "libc++abi-19-dev"]),
+}
+MACHINES = ARCHITECTURES | LEVELS
+
+
+def called(command, log=None, **more):
+    """Runs a command; a failure says what the command said."""
+    done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, **more)
+    if log is not None:
+        log.write_text(done.stdout + done.stderr)
+    if done.returncode != 0:
+        shown = "\n".join((done.stdout + done.stderr).strip().splitlines()[-30:])
+        raise RuntimeError(f"{shown}\nfailed: {' '.join(str(word) for word in command)}")
+    return done.stdout
+
+
+def build(name, machine, targets):
+    folder = BUILD / name
+    folder.mkdir(parents=True, exist_ok=True)
+    headers = BUILD / "highway"
+    if not headers.exists():
+        headers.mkdir(parents=True)
+        (headers / "hwy").symlink_to("/usr/include/hwy")
+    options = ["-DSUREFILL_SUITE=OFF", "-DSUREFILL_ELSEWHERE=ON", f"-DCMAKE_CXX_COMPILER={machine.compiler}",
+               f"-DCMAKE_CXX_FLAGS={machine.flags}", f"-DCMAKE_EXE_LINKER_FLAGS={machine.link}"]
+    if name in ARCHITECTURES:
+        options += [f"-Dhwy_DIR={ROOT}/elsewhere/highway", f"-DSUREFILL_HIGHWAY_HEADERS={headers}", "-DCMAKE_BUILD_TYPE=Release",
+                    "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY"]
+    called(["cmake", "-G", "Ninja", "-S", ROOT, "-B", folder, *options, *machine.cmake], folder / "configure.log")
+    called(["cmake", "--build", folder, "--target", *targets], folder / "build.log")
+    return folder / "elsewhere"
+
+
+def random_scenes():
+    """The folder of random scenes, written by a program of this machine."""
+    scenes = BUILD / "scenes"
+    programs = build("here", Machine("g++", cmake=["-DSUREFILL_REFERENCE_ONLY=ON", "-DCMAKE_BUILD_TYPE=Release"]), ["surefill_hashed_scenes"])
+    called([programs / "surefill_hashed_scenes", scenes])
+    return scenes
+
+
+def lines_equal(machine, programs, scenes, path):
+    """What drew, how many lines are equal, and of how many; as many processes as there are processors."""
+    program = [*machine.run, programs / f"surefill_hashes{machine.ending}"]
+    if path == "reference":
+        program.append("--reference")
+    environment = os.environ | {"WINEDEBUG": "-all", "WINEPREFIX": str(BUILD / "wine")}
+
+    def part(n):
+        command = [*program, "--part", f"{n}/{PARTS}", ROOT / "corpus" / "hashes.txt", ROOT / "corpus" / "cases", scenes]
+        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, env=environment)
+        last = (done.stdout.strip().splitlines() or [""])[-1]
+        if not last.endswith("lines equal"):
+            raise RuntimeError(f"no answer (exit status {done.returncode}): {' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
+        who, _, rest = last.rpartition(": ")
+        equal, _, lines = rest.removesuffix(" lines equal").partition(" of ")
+        if done.returncode != 0:
+            print("\n".join(done.stdout.strip().splitlines()[:5]), file=sys.stderr)
+        return who, int(equal), int(lines)
+
+    with concurrent.futures.ThreadPoolExecutor(PARTS) as pool:
+        answers = list(pool.map(part, range(PARTS)))
+    return answers[0][0], sum(a[1] for a in answers), sum(a[2] for a in answers)
+
+
+def version(command):
+    """The first word that the program says of its version and that is one."""
+    said = re.search(r"\d+\.\d+(\.\d+)?", called([command, "--version"]))
+    return said.group() if said else "?"
+
+
+def rows(name, scenes, reference_only):
+    """The lines of the table for one machine, and whether all is equal."""
+    machine = MACHINES[name]
+    started = time.monotonic()
+    programs = build(name, machine, ["surefill_hashes", "surefill_sizes"])
+    built = time.monotonic() - started
+    called([*machine.run, programs / f"surefill_sizes{machine.ending}"], env=os.environ | {"WINEDEBUG": "-all", "WINEPREFIX": str(BUILD / "wine")})
+    compiler = f"{'clang' if 'clang' in machine.compiler else 'g++'} {version(machine.compiler)}"
+    emulated = f"{pathlib.Path(machine.emulator).name} {version(machine.emulator)}" if machine.emulator else "not emulated"
+    if machine.emulator.startswith("qemu"):
+        emulated = f"emulated, {emulated}"
+    right = True
+    for path in machine.paths:
+        if reference_only and path != "reference":
+            continue
+        started = time.monotonic()
+        who, equal, lines = lines_equal(machine, programs, scenes, path)
+        right = right and equal == lines
+        print(f"{name:<26} {compiler:<16} {who:<10} {equal} of {lines} equal   {emulated:<28} built in {built:.0f} s, run in "
+              f"{time.monotonic() - started:.0f} s", flush=True)
+    return right
+
+
+def main():
+    arguments = sys.argv[1:]
+    flags = {a for a in arguments if a.startswith("--")}
+    names = []
+    for argument in arguments:
+        if not argument.startswith("--"):
+            names += {"architectures": list(ARCHITECTURES), "levels": list(LEVELS)}.get(argument, [argument])
+    unknown = [n for n in names if n not in MACHINES] + sorted(flags - {"--packages", "--reference"})
+    if unknown or not names:
+        print(__doc__ + f"\nknown: {' '.join(MACHINES)}\n" + (f"unknown: {' '.join(unknown)}" if unknown else ""), file=sys.stderr)
+        return 2
+    if "--packages" in flags:
+        print(" ".join(dict.fromkeys(package for name in names for package in MACHINES[name].packages)))
+        return 0
+    scenes = random_scenes()
+    failed = []
+    for name in names:
+        try:
+            if not rows(name, scenes, "--reference" in flags):
+                failed.append(name)
+        except (RuntimeError, OSError) as error:
+            failed.append(name)
+            print(f"{name}: {error}", file=sys.stderr, flush=True)
+    if failed:
+        print(f"not the same bits: {' '.join(failed)}", file=sys.stderr)
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -20,6 +20,7 @@
 #include "bench/llvmpipe.hpp"
 #include "bench/workloads.hpp"
 #include "hwy/targets.h"
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::bench {
@@ -237,11 +238,12 @@ void add_context() {
     if (line.rfind("model name", 0) == 0) processor = line.substr(line.find(':') + 2);
   }
   benchmark::AddCustomContext("processor", processor);
-  Statistics statistics;
+  Diagnostics diagnostics;
   std::uint32_t count;
   Target target;
   target.width = target.height = 1, target.count = {&count, 1};
-  if (render(target, {}, &statistics) == Status::ok) benchmark::AddCustomContext("instruction_set", statistics.path);
+  if (render(target, {}, nullptr, {.diagnostics = &diagnostics}) == Status::ok)
+    benchmark::AddCustomContext("instruction_set", diagnostics.path);
 }
 
 }  // namespace

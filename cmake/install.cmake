@@ -38,5 +38,7 @@ write_basic_package_version_file(${CMAKE_CURRENT_BINARY_DIR}/surefill-config-ver
 configure_file(${PROJECT_SOURCE_DIR}/cmake/surefill.pc.in ${CMAKE_CURRENT_BINARY_DIR}/surefill.pc @ONLY)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/surefill-config.cmake ${CMAKE_CURRENT_BINARY_DIR}/surefill-config-version.cmake
   DESTINATION ${surefill_package_dir} COMPONENT engine)
+install(FILES ${PROJECT_SOURCE_DIR}/docs/semantics.md  # the rules that the headers cite
+  DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/surefill COMPONENT engine)
 install(FILES ${CMAKE_CURRENT_BINARY_DIR}/surefill.pc
   DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT engine)

@@ -86,8 +86,7 @@ int main(int argc, char** argv) {
   surefill::Draw draw;
   draw.vertices = vertices, draw.indices = indices;
   draw.depth_mode = surefill::DepthMode::clip;
-  surefill::Statistics statistics;
-  if (const auto status = surefill::render(target, {&draw, 1}, &statistics); status != surefill::Status::ok) {
+  if (const auto status = surefill::render(target, {&draw, 1}); status != surefill::Status::ok) {
     return fail(surefill::status_text(status));
   }
 

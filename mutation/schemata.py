@@ -43,7 +43,7 @@ FOLDERS = ["properties/machinery", "properties/generators", "properties/theorems
 CHECKS = ["argument_check.cpp", "checks.cpp", "contract_checks.cpp", "judge.cpp", "mesh_checks.cpp"]
 LIBRARIES = ["-lfmt", "-lgmpxx", "-lgmp", "-lmpfr", "-ltinyobjloader", "-lpthread"]
 
-SKIPPED = re.compile(r"constexpr|static_assert|template|#|using |operator|requires|case |Statistics|\+\+statistics")
+SKIPPED = re.compile(r"constexpr|static_assert|template|#|using |operator|requires|case |Statistics|Rungs|Diagnostics|count\(rungs")
 OPERATOR = re.compile(r"(?<=[\w)\]]) (\+|-|\*|<|<=|>|>=|==|!=) (?=[\w(\-!&*])")
 LITERAL = re.compile(r"(?<=[ (])(\d+)()(?=[),;]| [-+*<>=?:])")
 STATEMENT = re.compile(r"^(\s+)([a-z_]\w*(?:(?:\.|->|\[|\().*| [-+*|&]?= .*)|\+\+\w.*|break|continue);$")
@@ -75,18 +75,19 @@ class Path:
         self.active = {}  # of each file, the lines that the compiler sees
 
 
-ALWAYS = ["arguments.cpp", "build_check.cpp", "exact/grid.cpp", "reference.cpp", "surefill.cpp", "viewport.cpp"]
+ALWAYS = ["arguments.cpp", "build_check.cpp", "exact/exact_draw.cpp", "exact/grid.cpp", "reference.cpp", "statistics.cpp", "surefill.cpp",
+          "viewport.cpp"]
 VECTOR_FILES = sorted(f"fast/{p.name}" for p in (ENGINE / "fast").glob("*-inl.hpp"))
 PATHS = {
     # What defines the engine's answers, and what the fast path falls back on.
     "reference": Path("reference", ["arguments.cpp", "exact/bounds.hpp", "exact/conservative.hpp", "exact/edge.hpp", "exact/exact.hpp",
-                                    "exact/grid.cpp", "exact/grid.hpp", "exact/triangle.hpp", "overlap.hpp", "reference.cpp", "viewport.cpp"],
+                                    "exact/exact_draw.cpp", "exact/exact_draw.hpp", "exact/grid.cpp", "exact/grid.hpp",
+                                    "exact/triangle.hpp", "facts.hpp", "overlap.hpp", "reference.cpp", "statistics.cpp", "viewport.cpp"],
                       ALWAYS,
                       ["-DSUREFILL_REFERENCE_ONLY"]),
     # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one.
-    "fast": Path("fast", [*VECTOR_FILES, "exact/exact_draw.cpp", "exact/exact_draw.hpp",
-                          *(f"fast/{name}" for name in ("culling.hpp", "frame.cpp", "lists.hpp", "record.hpp", "store.hpp", "team.hpp", "tile.hpp"))],
-                 [*ALWAYS, "exact/exact_draw.cpp", "fast/frame.cpp", "fast/kernels.cpp"],
+    "fast": Path("fast", [*VECTOR_FILES, *(f"fast/{name}" for name in ("culling.hpp", "frame.cpp", "lists.hpp", "record.hpp", "store.hpp", "team.hpp", "tile.hpp"))],
+                 [*ALWAYS, "fast/frame.cpp", "fast/kernels.cpp"],
                  ["-DHWY_COMPILE_ONLY_STATIC", "-march=x86-64-v3", "-maes", "-mpclmul"]),
 }
 

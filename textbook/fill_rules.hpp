@@ -29,11 +29,10 @@ inline bool is_top_left_edge(const Vertex& j, const Vertex& k) {
 
 // Covered by the top-left rule as its text has it: inside all edges; on an edge, it must be a top or left one.
 inline bool covers_top_left(const Triangle& triangle, SamplePosition p) {
-  Statistics unused;
   for (int i = 0; i < 3; ++i) {
     const EdgeFunction& e = triangle.edge(i);
     const bool clockwise = triangle.determinant() > 0;
-    const int sign = e.sign(p, unused) * triangle.determinant();
+    const int sign = e.sign(p) * triangle.determinant();
     if (sign < 0) return false;
     if (sign == 0 && !(clockwise ? is_top_left_edge(e.from, e.to) : is_top_left_edge(e.to, e.from))) return false;
   }
@@ -63,9 +62,8 @@ inline bool is_lit(const EdgeFunction& e, int determinant_sign, Light light) {
 }
 
 inline bool covers_by_light(const Triangle& triangle, SamplePosition p, Light light) {
-  Statistics unused;
   for (int i = 0; i < 3; ++i) {
-    const int sign = triangle.edge(i).sign(p, unused) * triangle.determinant();
+    const int sign = triangle.edge(i).sign(p) * triangle.determinant();
     if (sign < 0 || (sign == 0 && !is_lit(triangle.edge(i), triangle.determinant(), light))) return false;
   }
   return true;
@@ -76,7 +74,6 @@ inline bool covers_by_light(const Triangle& triangle, SamplePosition p, Light li
 // sample count as to the west of it, so a sample on a vertex belongs to the triangle south and then east of it (C3's
 // southwards). Otherwise the ray goes to the right, vertices beside the sample count as north of it: the top-left rule.
 inline bool covers_by_crossings(const std::array<Vertex, 3>& v, SamplePosition p, bool downwards) {
-  Statistics unused;
   const auto px = static_cast<float>(p.x), py = static_cast<float>(p.y);  // exact: at most 18 bits
   bool odd = false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -86,7 +83,7 @@ inline bool covers_by_crossings(const std::array<Vertex, 3>& v, SamplePosition p
     if ((side_j > 0) == (side_k > 0)) continue;
     // The ray crosses if the sample lies strictly before the edge: E = a px + b py + c, seen along the ray.
     const EdgeFunction e(j, k);
-    const int before = e.sign(p, unused) * (downwards ? sign_of(e.b) : sign_of(e.a));
+    const int before = e.sign(p) * (downwards ? sign_of(e.b) : sign_of(e.a));
     if (before < 0) odd = !odd;
   }
   return odd;

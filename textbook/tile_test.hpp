@@ -61,7 +61,7 @@ class TileTest {
     ++cost_.edge_evaluations;
     const SamplePosition p{static_cast<double>(right ? tile_.x1 : tile_.x0),
                            static_cast<double>(down ? tile_.y1 : tile_.y0)};
-    return triangle_.edge(i).sign(p, unused_) * triangle_.determinant();
+    return triangle_.edge(i).sign(p) * triangle_.determinant();
   }
 
   bool corner_in_triangle(bool right, bool down) {
@@ -111,7 +111,6 @@ class TileTest {
   const Triangle& triangle_;
   PixelBox tile_;
   TileTestCost cost_;
-  Statistics unused_;
 };
 
 }  // namespace surefill::textbook

@@ -64,7 +64,7 @@ class Asked {
   // Is sample (x, y) on the triangle's side of edge i?
   bool inside(int i, int x, int y) {
     ++counts_.edge_evaluations;
-    const int sign = triangle_.edge(i).sign(lattice_.at(x, y), unused_) * triangle_.determinant();
+    const int sign = triangle_.edge(i).sign(lattice_.at(x, y)) * triangle_.determinant();
     return (sign != 0 ? sign : tie_[i]) > 0;
   }
 
@@ -104,7 +104,6 @@ class Asked {
   Lattice lattice_;
   int tie_[3], along_x_[3], along_y_[3];  // signs
   Counts counts_;
-  Statistics unused_;
 };
 
 // Traversals tell an observer what they do, in order: seen.sample(x, y, covered), seen.tile(box, class).

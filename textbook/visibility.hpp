@@ -90,15 +90,14 @@ class DepthBuffer {
   // Depth is affine and rounding is monotonic: the stored depths of the box lie between those of its corner samples.
   Range depth_range(Triangle& triangle, const PixelBox& box) {
     const double left = box.x0 + 0.5, right = box.x1 - 0.5, top = box.y0 + 0.5, bottom = box.y1 - 0.5;
-    const float z[4] = {triangle.rounded_depth({left, top}, unused_), triangle.rounded_depth({right, top}, unused_),
-                        triangle.rounded_depth({left, bottom}, unused_),
-                        triangle.rounded_depth({right, bottom}, unused_)};
+    const float z[4] = {triangle.rounded_depth({left, top}), triangle.rounded_depth({right, top}),
+                        triangle.rounded_depth({left, bottom}), triangle.rounded_depth({right, bottom})};
     return {*std::min_element(z, z + 4), *std::max_element(z, z + 4)};
   }
 
   void fragment(Triangle& triangle, std::uint32_t index, int x, int y, bool test) {
     const std::size_t s = place(x, y);
-    const float z = triangle.rounded_depth({x + 0.5, y + 0.5}, unused_);
+    const float z = triangle.rounded_depth({x + 0.5, y + 0.5});
     if (test) {
       ++counts_.depth_reads;
       if (z > depth_[s] || (z == depth_[s] && index > index_[s])) return;
@@ -126,7 +125,6 @@ class DepthBuffer {
   std::vector<std::uint32_t> index_;
   std::vector<Range> tiles_;
   DepthCounts counts_;
-  Statistics unused_;
 };
 
 // --- The painter

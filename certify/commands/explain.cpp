@@ -58,9 +58,8 @@ Explained explained(const corpus::Scene& scene, const std::string& file) {
         const Vertex& v = one.vertices[i] = draw.vertices[draw.indices[3 * t + i]];
         finite = finite && std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
       }
-      Statistics statistics;
       Triangle triangle;
-      if (finite && triangle.set_up(one.vertices[0], one.vertices[1], one.vertices[2], statistics)) {
+      if (finite && triangle.set_up(one.vertices[0], one.vertices[1], one.vertices[2])) {
         result.triangles.push_back(one);
       }
     }
@@ -201,8 +200,7 @@ std::string traversal_view(const Explained& scene, const ExplainOptions& options
   Sheet sheet(panels, std::min(4, panels), 0, 0, scene.width, scene.height, scale, 3);
   const Explained::OneTriangle& chosen = scene.triangles[scene.chosen];
   Triangle triangle;
-  Statistics statistics;
-  triangle.set_up(chosen.vertices[0], chosen.vertices[1], chosen.vertices[2], statistics);
+  triangle.set_up(chosen.vertices[0], chosen.vertices[1], chosen.vertices[2]);
   for (int n = 0; n < panels; ++n) {
     const Traversal traversal = shown[static_cast<std::size_t>(n)];
     Asked asked(triangle, chosen.rule, lattice);
@@ -221,9 +219,8 @@ std::string traversal_view(const Explained& scene, const ExplainOptions& options
 
 std::string tile_test_view(const Explained& scene, int size) {
   Triangle triangle;
-  Statistics statistics;
   const Explained::OneTriangle& chosen = scene.triangles[scene.chosen];
-  triangle.set_up(chosen.vertices[0], chosen.vertices[1], chosen.vertices[2], statistics);
+  triangle.set_up(chosen.vertices[0], chosen.vertices[1], chosen.vertices[2]);
   const int columns = (scene.width + size - 1) / size * size, rows = (scene.height + size - 1) / size * size;
   Sheet sheet(2, 2, 0, 0, columns, rows, 420.0 / std::max(columns, rows), 3);
   for (int n = 0; n < 2; ++n) {
@@ -270,10 +267,7 @@ std::string fill_rule_view(const Explained& scene) {
                                     "northwards: -y, +x",    "northwards_west: -y, -x"};
   for (int r = 0; r < 8; ++r) {
     const TieShift shift = tie_shift(static_cast<FillRule>(r));
-    rules.push_back({kNames[r], [shift](const Triangle& t, SamplePosition p) {
-                       Statistics unused;
-                       return t.covers(p, shift, unused);
-                     }});
+    rules.push_back({kNames[r], [shift](const Triangle& t, SamplePosition p) { return t.covers(p, shift); }});
   }
   for (const Light light : {Light{1, 0}, Light{1, 2}, Light{1, 1}, Light{1, -3}}) {
     static const std::map<std::pair<int, int>, const char*> kLights = {{{1, 0}, "light (1, 0): is top_left"},
@@ -286,10 +280,8 @@ std::string fill_rule_view(const Explained& scene) {
   constexpr const char* kFills[] = {"fill=\"#8fb4e8\"", "fill=\"#f2c572\"", "fill=\"#9bd09b\"", "fill=\"#e59a93\"",
                                     "fill=\"#c5a8e0\"", "fill=\"#8fd3d3\"", "fill=\"#d9c2a0\"", "fill=\"#f0a8cf\""};
   std::vector<Triangle> triangles(scene.triangles.size());
-  Statistics statistics;
   for (std::size_t t = 0; t < triangles.size(); ++t) {
-    triangles[t].set_up(scene.triangles[t].vertices[0], scene.triangles[t].vertices[1], scene.triangles[t].vertices[2],
-                        statistics);
+    triangles[t].set_up(scene.triangles[t].vertices[0], scene.triangles[t].vertices[1], scene.triangles[t].vertices[2]);
   }
   Sheet sheet(static_cast<int>(rules.size()), 4, 0, 0, scene.width, scene.height,
               200.0 / std::max(scene.width, scene.height), 1);
@@ -319,9 +311,8 @@ std::string fill_rule_view(const Explained& scene) {
         bool tie = false;
         for (const Triangle& t : triangles) {
           bool near = true;
-          for (int i = 0; i < 3; ++i)
-            near = near && t.edge(i).sign({x + 0.5, y + 0.5}, statistics) * t.determinant() >= 0;
-          for (int i = 0; i < 3; ++i) tie = tie || (near && t.edge(i).sign({x + 0.5, y + 0.5}, statistics) == 0);
+          for (int i = 0; i < 3; ++i) near = near && t.edge(i).sign({x + 0.5, y + 0.5}) * t.determinant() >= 0;
+          for (int i = 0; i < 3; ++i) tie = tie || (near && t.edge(i).sign({x + 0.5, y + 0.5}) == 0);
         }
         panel.svg.circle(panel.at(x + 0.5, y + 0.5), tie ? 3 : 1.2,
                          tie ? "fill=\"#ffffff\" stroke=\"#1c2433\"" : "fill=\"#565b66\"");
@@ -386,8 +377,7 @@ std::string count_table() {
                     1};
           }
           Triangle triangle;
-          Statistics statistics;
-          if (!triangle.set_up(v[0], v[1], v[2], statistics)) continue;
+          if (!triangle.set_up(v[0], v[1], v[2])) continue;
           Asked asked(triangle, FillRule::top_left, lattice);
           Empty nobody;
           traverse(traversal, asked, lattice, size, nobody);

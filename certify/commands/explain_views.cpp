@@ -32,8 +32,7 @@ std::string fill(std::size_t n) {
 
 Triangle set_up(const Explained::OneTriangle& one) {
   Triangle triangle;
-  Statistics statistics;
-  triangle.set_up(one.vertices[0], one.vertices[1], one.vertices[2], statistics);
+  triangle.set_up(one.vertices[0], one.vertices[1], one.vertices[2]);
   return triangle;
 }
 
@@ -145,11 +144,10 @@ std::string interpolation_view(const Explained& scene) {
     std::int64_t largest = 0;
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
-        Statistics statistics;
         const SamplePosition p = lattice.at(x, y);
-        if (!triangle.covers(p, tie_shift(one.rule), statistics)) continue;
+        if (!triangle.covers(p, tie_shift(one.rule))) continue;
         ++covered;
-        const float right = triangle.attribute(p, kValues, Interpolation::perspective, statistics);
+        const float right = triangle.attribute(p, kValues, Interpolation::perspective);
         const mpq_class real =
             exact.value(route, {mpq_class(kValues[0]), mpq_class(kValues[1]), mpq_class(kValues[2])}, lattice, x, y);
         if (oracle::nearest_finite(real.get_num(), real.get_den()) != right) ++by_rational;
@@ -219,10 +217,9 @@ std::string affine_w_view() {
       double largest = 0;
       for (int y = 0; y < 64; ++y) {
         for (int x = 0; x < 64; ++x) {
-          Statistics statistics;
           const SamplePosition p{x + 0.5, y + 0.5};
-          if (!triangle.covers(p, tie_shift(FillRule::top_left), statistics)) continue;
-          const double right = triangle.attribute(p, u, Interpolation::perspective, statistics);
+          if (!triangle.covers(p, tie_shift(FillRule::top_left))) continue;
+          const double right = triangle.attribute(p, u, Interpolation::perspective);
           const int size = kSizes[k];
           const double value = approximate.with_affine_w({0, 1, 0}, p.x, p.y, x / size * size, y / size * size, size);
           largest = std::max(largest, 256 * std::fabs(value - right));
@@ -309,9 +306,7 @@ std::string painter_view(const Explained& scene) {
     labels.push_back(cut.at(middle.x / corners, middle.y / corners));
     for (int y = 0; y < scene.height; ++y) {
       for (int x = 0; x < scene.width; ++x) {
-        Statistics statistics;
-        if (triangles[piece.index].covers({x + 0.5, y + 0.5}, tie_shift(scene.triangles[piece.index].rule),
-                                          statistics) &&
+        if (triangles[piece.index].covers({x + 0.5, y + 0.5}, tie_shift(scene.triangles[piece.index].rule)) &&
             screen.contains(mpq_class(x + 0.5), mpq_class(y + 0.5))) {
           image[place(scene, x, y)] = piece.index;
         }
@@ -441,11 +436,10 @@ std::string codec_view(const Explained& scene) {
   const auto colour = [&](int x, int y) -> std::uint32_t {
     const std::uint32_t index = buffer.index()[place(scene, x, y)];
     if (index == kNoTriangle) return 0xFF202428u;
-    Statistics statistics;
     std::uint32_t packed = 0xFF000000u;
     for (unsigned i = 0; i < 3; ++i) {
       const float unit[3] = {i == 0 ? 1.0f : 0.0f, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f};
-      const float b = triangles[index].attribute({x + 0.5, y + 0.5}, unit, Interpolation::perspective, statistics);
+      const float b = triangles[index].attribute({x + 0.5, y + 0.5}, unit, Interpolation::perspective);
       packed |= static_cast<std::uint32_t>(std::lround(255 * b)) << (8 * i);
     }
     return packed;

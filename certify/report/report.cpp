@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "certify/build_info.hpp"
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::certify {
@@ -60,8 +61,8 @@ std::string engine_path() {
   Target target;
   target.width = target.height = 1;
   target.count = {&count, 1};
-  Statistics statistics;
-  return render(target, {}, &statistics) == Status::ok ? statistics.path : "unknown";
+  Diagnostics diagnostics;
+  return render(target, {}, nullptr, {.diagnostics = &diagnostics}) == Status::ok ? diagnostics.path : "unknown";
 }
 
 }  // namespace

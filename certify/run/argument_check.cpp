@@ -385,7 +385,7 @@ CaseResult viewport_argument_case(std::uint64_t number) {
                             &viewport.height, &viewport.near_depth, &viewport.far_depth};
   std::span<const ClipVertex> in = in_at(0);
   std::span<Vertex> out = out_at(2);
-  Status expected = Status::draw_vertices;
+  Status expected = Status::to_pixel_vertices;
   if (number < 12) {
     using Limits = std::numeric_limits<float>;
     *numbers[number % 6] = number < 6 ? Limits::infinity() : Limits::quiet_NaN();

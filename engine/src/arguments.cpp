@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "exact/edge.hpp"
+#include "facts.hpp"
 #include "overlap.hpp"
 #include "surefill/surefill.hpp"
 
@@ -70,12 +71,6 @@ Status validate_target(const Target& target, Outputs& outputs) {
   return apart ? Status::ok : Status::target_overlap;
 }
 
-bool asks_for_more_than_count(const Target& target) {
-  bool more = !target.index.empty() || !target.depth.empty() || !target.barycentrics.empty();
-  for (const AttributeTarget& attribute : target.attributes) more |= !attribute.values.empty();
-  return more;
-}
-
 Status validate_attributes(const Target& target, const Draw& draw) {
   if (null_but_not_empty(draw.attributes) || draw.attributes.size() > kMaxAttributes ||
       draw.attributes.size() < target.attributes.size()) {
@@ -88,7 +83,7 @@ Status validate_attributes(const Target& target, const Draw& draw) {
       return Status::draw_attributes;
     }
     if (attribute.stride != 0 && attribute.stride < attribute.components) return Status::draw_attributes;
-    const std::uint64_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
+    const std::uint64_t stride = stride_of(attribute);
     // Below 2^32 vertices and strides, so nothing overflows.
     const std::uint64_t needed = draw.vertices.empty() ? 0 : (draw.vertices.size() - 1) * stride + attribute.components;
     if (null_but_not_empty(attribute.values) || attribute.values.size() < needed) return Status::draw_attributes;
@@ -105,7 +100,7 @@ bool has_no_triangle(std::span<const std::uint32_t> identifiers) {
 }
 
 Status validate_draw(const Target& target, const Draw& draw, const Outputs& outputs) {
-  const std::uint64_t vertices = draw.vertices.size(), triangles = draw.indices.size() / 3;
+  const std::uint64_t vertices = draw.vertices.size(), triangles = triangles_of(draw);
   if (null_but_not_empty(draw.vertices) || vertices > kLargestIndex) return Status::draw_vertices;
   if (null_but_not_empty(draw.indices) || draw.indices.size() % 3 != 0 || triangles >= kLargestIndex) {
     return Status::draw_indices;
@@ -130,7 +125,7 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
   }
   if (draw.conservative > Conservative::inner) return Status::draw_conservative;
   if (draw.conservative != Conservative::none &&
-      (asks_for_more_than_count(target) || target.samples != 1 || draw.depth_mode != DepthMode::none || draw.grid)) {
+      (wanted_outputs(target).depth || target.samples != 1 || draw.depth_mode != DepthMode::none || draw.grid)) {
     return Status::draw_conservative;
   }
   bool apart = !outputs.touched_by(Bytes(draw.vertices)) && !outputs.touched_by(Bytes(draw.indices)) &&
@@ -172,6 +167,7 @@ Status check_call(const Target& target, std::span<const Draw> draws, const Stati
   if (options.path > Path::reference) return Status::options_path;
   Outputs outputs;
   outputs.add(Bytes::of(statistics));
+  if (!outputs.add(Bytes::of(options.diagnostics))) return Status::target_overlap;
   if (const Status status = validate_frame(target, draws, outputs); status != Status::ok) return status;
   const bool touched = outputs.touched_by(Bytes::of(&options)) || outputs.touched_by(Bytes::of(options.context));
   return touched ? Status::target_overlap : Status::ok;
@@ -208,7 +204,7 @@ const char* status_text(Status status) noexcept {
     case Status::draws:
       return "the list of draws is null but not empty";
     case Status::draw_vertices:
-      return "a draw's vertex buffer is null, too large, or disagrees with the output's size";
+      return "a draw's vertex buffer is null or too large";
     case Status::draw_indices:
       return "a draw's indices are null, no multiple of 3, or too many";
     case Status::draw_index_out_of_range:
@@ -222,7 +218,7 @@ const char* status_text(Status status) noexcept {
     case Status::draw_attribute_interpolation:
       return "an attribute's interpolation is not an enumerator of Interpolation";
     case Status::draw_fill_rule:
-      return "a draw's fill rule is not an enumerator of FillRule";
+      return "a draw's fill rule is not an enumerator of FillRule, or is closed or open with a grid";
     case Status::draw_front_face:
       return "a draw's front face is not an enumerator of FrontFace";
     case Status::draw_cull:
@@ -230,7 +226,8 @@ const char* status_text(Status status) noexcept {
     case Status::draw_depth_mode:
       return "a draw's depth mode is not an enumerator of DepthMode";
     case Status::draw_conservative:
-      return "a conservative draw allows coverage counts alone, one sample, no depth mode and no grid";
+      return "a draw's conservative mode is not an enumerator of Conservative, or the frame has more than counts, "
+             "several samples, a depth mode or a grid";
     case Status::draw_grid:
       return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding";
     case Status::viewport:
@@ -248,6 +245,10 @@ const char* status_text(Status status) noexcept {
     case Status::bad_build:
       return "the library was compiled with options that break exact arithmetic, such as -ffast-math or FMA "
              "contraction";
+    case Status::to_pixel_vertices:
+      return "to_pixel's vertices or results are null, not equally many, or overlap what the call reads";
+    case Status::target_outputs:
+      return "the target of visit_coverage asks for an output";
   }
   return "unknown status";
 }

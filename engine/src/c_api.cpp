@@ -10,6 +10,7 @@
 
 #include "arguments.hpp"
 #include "overlap.hpp"
+#include "surefill/diagnostics.hpp"
 #include "surefill/occlusion.hpp"
 #include "surefill/surefill.h"
 #include "surefill/surefill.hpp"
@@ -31,6 +32,7 @@ static_assert(sizeof(surefill_rectangle) == sizeof(OcclusionRectangle));
 static_assert(sizeof(Occlusion) == 1 && static_cast<int>(Occlusion::visible) == SUREFILL_VISIBLE);
 static_assert(static_cast<int>(Status::query_answers) == SUREFILL_QUERY_ANSWERS);
 static_assert(static_cast<int>(Status::bad_build) == SUREFILL_BAD_BUILD);
+static_assert(static_cast<int>(Status::target_outputs) == SUREFILL_TARGET_OUTPUTS);
 static_assert(static_cast<int>(FillRule::open) == SUREFILL_OPEN);
 static_assert(kMaxTargetSize == SUREFILL_MAX_TARGET_SIZE && kMaxAttributes == SUREFILL_MAX_ATTRIBUTES);
 static_assert(kMaxComponents == SUREFILL_MAX_COMPONENTS && kMaxThreads == SUREFILL_MAX_THREADS);
@@ -184,12 +186,14 @@ class Arguments {
   template <typename Function>
   surefill_status run(surefill_statistics* to, const Function& draw) const {
     Statistics s;
-    const Status status = overlaps_ ? check() : draw(s, options_);
+    Diagnostics d;
+    Options options = options_;
+    options.diagnostics = &d;
+    const Status status = overlaps_ ? check() : draw(to == nullptr ? nullptr : &s, options);
     if (status == Status::ok && to != nullptr) {
       std::size_t size;
       std::memcpy(&size, to, sizeof size);
-      const surefill_statistics result{size,     s.triangles, s.dropped,    s.degenerate,
-                                       s.culled, s.outside,   s.rasterized, s.path};
+      const surefill_statistics result{size, s.triangles(), s.dropped, s.degenerate, s.culled, 0, s.rasterized, d.path};
       std::memcpy(to, &result, size);
     }
     return to_c(status);
@@ -361,7 +365,7 @@ surefill_status surefill_render(const surefill_target* target, const surefill_dr
   if (status == SUREFILL_OK) status = arguments.read_options(options, statistics);
   if (status != SUREFILL_OK) return status;
   return arguments.run(
-      statistics, [&](Statistics& s, const Options& o) { return render(arguments.target, arguments.draws, &s, o); });
+      statistics, [&](Statistics* s, const Options& o) { return render(arguments.target, arguments.draws, s, o); });
 }
 
 surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
@@ -400,7 +404,7 @@ surefill_status surefill_occlusion_draw(surefill_occlusion* occlusion, const sur
   if (status == SUREFILL_OK) status = arguments.read_options(options, statistics);
   if (status != SUREFILL_OK) return status;
   return arguments.run(statistics,
-                       [&](Statistics& s, const Options& o) { return occlusion->buffer.draw(arguments.draws, &s, o); });
+                       [&](Statistics* s, const Options& o) { return occlusion->buffer.draw(arguments.draws, s, o); });
 }
 
 surefill_status surefill_occlusion_query_boxes(const surefill_occlusion* occlusion, const surefill_box* boxes,

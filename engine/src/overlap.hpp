@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill {
@@ -58,7 +59,7 @@ class Outputs {
   }
 
  private:
-  static constexpr std::size_t kMost = 5 + kMaxAttributes;  // four buffers, the attributes, the statistics
+  static constexpr std::size_t kMost = 6 + kMaxAttributes;  // four buffers, the attributes, statistics, diagnostics
   Bytes bytes_[kMost];
   std::size_t count_ = 0;
 };

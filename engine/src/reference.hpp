@@ -7,17 +7,18 @@
 
 #include <span>
 
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::reference {
 
 // As surefill::render, for arguments that validate() has accepted, with the floating-point state already set. Returns
 // ok or out_of_memory.
-Status render(const Target& target, std::span<const Draw> draws, Statistics& statistics) noexcept;
+Status render(const Target& target, std::span<const Draw> draws, Rungs& rungs) noexcept;
 
 // As surefill::visit_coverage, in the same way. Returns ok.
 Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
-                      Statistics& statistics) noexcept;
+                      Rungs& rungs) noexcept;
 
 }  // namespace surefill::reference
 

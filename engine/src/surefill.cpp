@@ -5,10 +5,13 @@
 
 #include "arguments.hpp"
 #include "build_check.hpp"
+#include "facts.hpp"
 #include "fast/frame.hpp"
 #include "fast/memory.hpp"
 #include "float_environment.hpp"
 #include "reference.hpp"
+#include "statistics.hpp"
+#include "surefill/diagnostics.hpp"
 
 namespace surefill {
 namespace {
@@ -44,25 +47,32 @@ struct CallersCode {
 
 // Neither is inlined: they need the engine's floating-point state.
 [[gnu::noinline]] Status draw(const Target& target, std::span<const Draw> draws,
-                              [[maybe_unused]] const Options& options, Statistics& statistics) {
+                              [[maybe_unused]] const Options& options, Diagnostics& diagnostics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
   if (options.path == Path::automatic && fast::supports(draws)) {
-    return fast::render(target, draws, options, statistics);
+    return fast::render(target, draws, options, diagnostics);
   }
 #endif
-  statistics.path = "reference";
-  return reference::render(target, draws, statistics);
+  diagnostics.path = "reference";
+  return reference::render(target, draws, diagnostics.rungs);
 }
 
 [[gnu::noinline]] Status visit(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
-                               [[maybe_unused]] const Options& options, Statistics& statistics) {
+                               [[maybe_unused]] const Options& options, Diagnostics& diagnostics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
   if (options.path == Path::automatic && fast::supports(draws)) {
-    return fast::visit_coverage(target, draws, visitor, options, statistics);
+    return fast::visit_coverage(target, draws, visitor, options, diagnostics);
   }
 #endif
-  statistics.path = "reference";
-  return reference::visit_coverage(target, draws, visitor, statistics);
+  diagnostics.path = "reference";
+  return reference::visit_coverage(target, draws, visitor, diagnostics.rungs);
+}
+
+// What is asked for beside the image.
+[[gnu::noinline]] void report(std::span<const Draw> draws, Statistics* statistics, const Options& options,
+                              const Diagnostics& diagnostics) {
+  if (statistics != nullptr) *statistics = statistics_of(draws);
+  if (options.diagnostics != nullptr) *options.diagnostics = diagnostics;
 }
 
 }  // namespace
@@ -91,31 +101,34 @@ SampleLocation sample_location(int samples, int n) noexcept {
   }
 }
 
+Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics) noexcept {
+  return render(target, draws, statistics, {});
+}
+
 Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
               const Options& options) noexcept {
   if (!is_exact_build()) return Status::bad_build;
   if (const Status status = check_call(target, draws, statistics, options); status != Status::ok) return status;
   FloatEnvironment environment;
   CallersCode callers{environment, options.executor, {}};
-  Statistics own;
-  const Status status = draw(target, draws, callers.with_executor(options), own);
-  if (status == Status::ok && statistics != nullptr) *statistics = own;
+  Diagnostics diagnostics;
+  const Status status = draw(target, draws, callers.with_executor(options), diagnostics);
+  if (status == Status::ok) report(draws, statistics, options, diagnostics);
   return status;
 }
 
-Status visit_coverage(int width, int height, int samples, std::span<const Draw> draws, const CoverageVisitor& visitor,
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
                       Statistics* statistics, const Options& options) noexcept {
-  Target target;
-  target.width = width, target.height = height, target.samples = samples;
   if (!is_exact_build()) return Status::bad_build;
   if (const Status status = check_call(target, draws, statistics, options); status != Status::ok) return status;
+  if (wanted_outputs(target).depth || !target.count.empty()) return Status::target_outputs;
   if (visitor.visit == nullptr) return Status::visitor;
   FloatEnvironment environment;
   CallersCode callers{environment, options.executor, visitor};
-  Statistics own;
+  Diagnostics diagnostics;
   const Status status =
-      visit(target, draws, {CallersCode::visit_blocks, &callers}, callers.with_executor(options), own);
-  if (status == Status::ok && statistics != nullptr) *statistics = own;
+      visit(target, draws, {CallersCode::visit_blocks, &callers}, callers.with_executor(options), diagnostics);
+  if (status == Status::ok) report(draws, statistics, options, diagnostics);
   return status;
 }
 

@@ -84,7 +84,7 @@ Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices, 
   if (vertices.size() != out.size() || (vertices.data() == nullptr && !vertices.empty()) ||
       (out.data() == nullptr && !out.empty()) || Bytes(out).overlaps(Bytes(vertices)) ||
       Bytes(out).overlaps(Bytes::of(&viewport))) {
-    return Status::draw_vertices;
+    return Status::to_pixel_vertices;
   }
   map_all(viewport, vertices, out);
   return Status::ok;

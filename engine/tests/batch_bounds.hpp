@@ -94,24 +94,22 @@ class BatchBounds {
         false,  0, 0};
     tiles_.columns = tiles_.rows = (size + fast::kTileSize - 1) / fast::kTileSize;
     if (crossing) tiles_.columns = tiles_.rows = kMaxTargetSize / fast::kTileSize;
-    Statistics statistics;
-    set_up(0, count, statistics, [this](const fast::Record& r, const std::vector<std::uint32_t>& listed) {
+    Diagnostics diagnostics;
+    set_up(0, count, diagnostics, [this](const fast::Record& r, const std::vector<std::uint32_t>& listed) {
       record_[r.position] = r, is_drawn_[r.position] = true, listed_[r.position] = listed;
     });
-    if (statistics.triangles != count || statistics.small + statistics.medium + statistics.large != drawn())
-      return "the statistics count lanes";
+    if (diagnostics.small + diagnostics.medium + diagnostics.large != drawn()) return "the diagnostics count lanes";
     for (std::uint32_t lane = 0; lane < count; ++lane) check(lane);
-    expect(statistics.rasterized == (draw_.grid ? reached_ : drawn()), "the statistics count what is drawn");
-    expect(statistics.clipped == clipped_, "the statistics count what Grid clips");
-    expect(statistics.dropped == dropped_, "what is not finite is dropped");
-    if (count > 1 && random_.one_in(8)) in_two(count, statistics);
+    expect(diagnostics.clipped == clipped_, "the diagnostics count what Grid clips");
+    if (count > 1 && random_.one_in(8)) in_two(count, diagnostics);
     if (random_.one_in(256)) counts_all_triangles();
     if (clips_) return broken_;
-    expect(statistics.signs_by_filter + statistics.signs_by_expansion <= unsure_,
+    const Rungs& rungs = diagnostics.rungs;
+    expect(rungs.signs_by_filter + rungs.signs_by_expansion <= unsure_,
            "the sign of D is looked up only where doubles may not tell it");
     if (!draw_.grid) return broken_;
     for (std::uint32_t lane = count; lane < fast::kBatch; ++lane) near_a_turn(0);  // the other lanes are like the first
-    expect(statistics.values_by_filter + statistics.values_by_expansion <= turns_,
+    expect(rungs.values_by_filter + rungs.values_by_expansion <= turns_,
            "grid positions are looked up only where doubles may not tell them");
     return broken_;
   }
@@ -126,7 +124,7 @@ class BatchBounds {
   // Sets up triangles, and visits each record and the tiles in which it is listed; where lists are full, in several
   // steps.
   template <typename Visit>
-  void set_up(std::uint32_t first, std::uint32_t count, Statistics& statistics, const Visit& visit) {
+  void set_up(std::uint32_t first, std::uint32_t count, Diagnostics& diagnostics, const Visit& visit) {
     static fast::Scratch scratch;
     static std::vector<std::uint16_t> items(fast::kPiecePairs);
     alignas(128) static fast::Record records[6 * fast::kBatch];  // a clipped triangle becomes up to five
@@ -135,7 +133,7 @@ class BatchBounds {
     for (int steps = 0; piece.next < piece.end; ++steps) {
       // What a record does not set must not be looked at.
       std::fill_n(reinterpret_cast<unsigned char*>(records), sizeof records, static_cast<unsigned char>(0x7E));
-      fast::kernels().set_up(tiles_, piece, scratch, statistics);
+      fast::kernels().set_up(tiles_, piece, scratch, diagnostics);
       expect(steps <= 8, "each step sets up a triangle");
       if (!broken_.empty()) return;
       for (std::uint32_t n = 0; n < piece.size; ++n) {
@@ -185,10 +183,8 @@ class BatchBounds {
       finite = finite && std::isfinite(vertex->x) && std::isfinite(vertex->y) && std::isfinite(vertex->z) &&
                std::isfinite(vertex->w);
     }
-    if (!finite) ++dropped_;
     if (draw_.grid) return check_snapped(lane, v, finite);
-    Statistics statistics;
-    const bool drawn = finite && triangle_.set_up(*v[0], *v[1], *v[2], statistics);
+    const bool drawn = finite && triangle_.set_up(*v[0], *v[1], *v[2]);
     if (finite && !determinant_is_clear(lane)) ++unsure_;
     const bool front = drawn && (triangle_.determinant() > 0) == (draw_.front_face == FrontFace::clockwise);
     const bool culled = draw_.cull == Cull::front ? front : draw_.cull == Cull::back && !front;
@@ -201,7 +197,7 @@ class BatchBounds {
       for (int n = 0; n < 12 && !exact_box.empty(); ++n) {
         const int x = random_.between(exact_box.x0, exact_box.x1 - 1),
                   y = random_.between(exact_box.y0, exact_box.y1 - 1);
-        expect(!triangle_.covers(at(x, y), job_.shift, statistics), "what is not live covers nothing");
+        expect(!triangle_.covers(at(x, y), job_.shift), "what is not live covers nothing");
       }
       return;
     }
@@ -220,9 +216,9 @@ class BatchBounds {
   }
 
   // Set up in two pieces, the triangles become the same records and count together as in one.
-  void in_two(std::uint32_t count, const Statistics& alone) {
+  void in_two(std::uint32_t count, const Diagnostics& alone) {
     const std::uint32_t middle = 1 + random_.below(count - 1);
-    Statistics sum;
+    Diagnostics sum;
     const auto same_as_alone = [this](const fast::Record& r, const std::vector<std::uint32_t>& listed) {
       const fast::Record& other = record_[r.position];
       bool same = is_drawn_[r.position] && r.flags == other.flags && r.x0 == other.x0 && r.x1 == other.x1 &&
@@ -232,11 +228,10 @@ class BatchBounds {
       expect(same, "a piece's records do not depend on where it begins");
     };
     set_up(0, middle, sum, same_as_alone), set_up(middle, count - middle, sum, same_as_alone);
-    expect(sum.triangles == alone.triangles && sum.dropped == alone.dropped && sum.degenerate == alone.degenerate &&
-               sum.culled == alone.culled && sum.outside == alone.outside && sum.rasterized == alone.rasterized &&
-               sum.small == alone.small && sum.medium == alone.medium && sum.large == alone.large &&
-               sum.clipped == alone.clipped && sum.signs_by_filter == alone.signs_by_filter &&
-               sum.signs_by_expansion == alone.signs_by_expansion,
+    expect(sum.outside == alone.outside && sum.small == alone.small && sum.medium == alone.medium &&
+               sum.large == alone.large && sum.clipped == alone.clipped &&
+               sum.rungs.signs_by_filter == alone.rungs.signs_by_filter &&
+               sum.rungs.signs_by_expansion == alone.rungs.signs_by_expansion,
            "pieces count together as one");
   }
 
@@ -248,13 +243,11 @@ class BatchBounds {
       whole = whole && vertex->w > 0 && std::fabs(vertex->x) <= limit && std::fabs(vertex->y) <= limit;
     }
     near_a_turn(lane);
-    Statistics statistics;
-    const bool some = finite && snapped_.set_up(*v[0], *v[1], *v[2], *draw_.grid, statistics);
+    const bool some = finite && snapped_.set_up(*v[0], *v[1], *v[2], *draw_.grid);
     const double least = std::min(job_.sample.x, job_.sample.y), most = std::max(job_.sample.x, job_.sample.y);
     const bool clipped = finite && !whole;
-    const bool clipped_is_seen = clipped && some && !snapped_.box(job_.region, least, most).empty();
     clips_ = clips_ || clipped;
-    if (clipped_is_seen) ++reached_, ++clipped_;
+    if (clipped && some && !snapped_.box(job_.region, least, most).empty()) ++clipped_;
     expect(whole || !is_drawn_[lane], "what is not within the guard band is not drawn as it is");
     if (!whole) return;
 
@@ -275,7 +268,6 @@ class BatchBounds {
     samples(corner_[0].y, corner_[1].y, corner_[2].y, job_.sample.y, region.y0, region.y1, &y0_, &y1_);
     const int box[4] = {x0_, x1_, y0_, y1_};
     const bool reached = x0_ <= x1_ && y0_ <= y1_;
-    if (reached) ++reached_;
     const std::int64_t left = (x[1] - x[0]) * (y[2] - y[0]), right = (y[1] - y[0]) * (x[2] - x[0]);
     sign_ = left > right ? 1 : left < right ? -1 : 0;
     const bool culled = draw_.cull == Cull::front ? sign_ > 0 : draw_.cull == Cull::back && sign_ < 0;
@@ -288,7 +280,7 @@ class BatchBounds {
       const SamplePosition &j = corner_[(i + 1) % 3], &k = corner_[(i + 2) % 3];
       line_[i] = {j.y - k.y, k.x - j.x, -((j.y - k.y) * j.x + (k.x - j.x) * j.y), true};
     }
-    triangle_.set_up(*v[0], *v[1], *v[2], statistics);  // its depth is that of the triangle as it was
+    triangle_.set_up(*v[0], *v[1], *v[2]);  // its depth is that of the triangle as it was
     what_is_set_up(lane, v);
   }
 
@@ -456,8 +448,7 @@ class BatchBounds {
 
   // Of E_i, exactly.
   int edge_sign(std::size_t i, SamplePosition p) {
-    Statistics statistics;
-    if (!draw_.grid) return triangle_.edge(static_cast<int>(i)).sign(p, statistics);
+    if (!draw_.grid) return triangle_.edge(static_cast<int>(i)).sign(p);
     const int units_per_pixel = 16 << draw_.grid->bits;
     const auto units = [&](double pixels) { return static_cast<std::int64_t>(pixels * units_per_pixel); };
     const SamplePosition& j = corner_[(i + 1) % 3];
@@ -597,9 +588,9 @@ class BatchBounds {
     bool exact;
   };
   Line line_[3] = {};
-  int sign_ = 0;                                           // of D
-  std::uint64_t dropped_ = 0, reached_ = 0, clipped_ = 0;  // triangles
-  std::uint64_t unsure_ = 0, turns_ = 0;                   // signs and positions that may have to be looked up
+  int sign_ = 0;                          // of D
+  std::uint64_t clipped_ = 0;             // triangles
+  std::uint64_t unsure_ = 0, turns_ = 0;  // signs and positions that may have to be looked up
   bool clips_ = false;
   int x0_ = 0, x1_ = 0, y0_ = 0, y1_ = 0, origin_x_ = 0, origin_y_ = 0;
   std::string broken_;

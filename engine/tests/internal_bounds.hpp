@@ -131,8 +131,7 @@ class InternalBounds {
     const auto expansion = e.exact_value(p);
     for (int i = 0; i < expansion.size(); ++i) terms += expansion.term(i);
     expect(terms == true_value, "the expansion of an edge function is exact");
-    Statistics statistics;
-    expect(e.sign(p, statistics) == sgn(true_value), "the sign of an edge function is exact");
+    expect(e.sign(p) == sgn(true_value), "the sign of an edge function is exact");
   }
 
   void difference() {
@@ -229,8 +228,7 @@ class InternalBounds {
     const Vertex v[3] = {
         {number(), number(), 0, number()}, {number(), number(), 0, number()}, {number(), number(), 0, number()}};
     Triangle triangle;
-    Statistics statistics;
-    if (!triangle.set_up(v[0], v[1], v[2], statistics)) return;
+    if (!triangle.set_up(v[0], v[1], v[2])) return;
     const SamplePosition p{random_.between(0, 3) + 0.5, random_.between(0, 3) + 0.5};
     mpq_class sum;
     for (int i = 0; i < 3; ++i) {
@@ -279,12 +277,11 @@ class InternalBounds {
     if (behind)
       for (Vertex& vertex : v) vertex = {-vertex.x, -vertex.y, -vertex.z, -vertex.w};
 
-    Statistics statistics;
     SnappedTriangle triangle;
     const int first = random_.between(0, 40), last = first + random_.between(1, 400);
     const PixelBox limits{first, first / 2, last, last + 1};
-    if (random_.one_in(2)) triangle.set_up({0, 0, 0, 1}, {9999, 1, 0, 1}, {7, 9999, 0, 1}, grid, statistics);  // before
-    if (!triangle.set_up(v[0], v[1], v[2], grid, statistics)) {
+    if (random_.one_in(2)) triangle.set_up({0, 0, 0, 1}, {9999, 1, 0, 1}, {7, 9999, 0, 1}, grid);  // before
+    if (!triangle.set_up(v[0], v[1], v[2], grid)) {
       expect(behind || v[0].w <= 0, "a hull in front of the eye does not hold it");
       return;
     }
@@ -304,7 +301,7 @@ class InternalBounds {
         const mpq_class position = on_grid(mpq_class(at[axis]) / vertex.w, offset, grid);
         const double corner = axis == 0 ? triangle.corner(k).x : triangle.corner(k).y;
         expect(corner == position, "corners are on the grid");
-        expect(snapped_position(at[axis], vertex.w, offset, grid, statistics) == position, "positions are on the grid");
+        expect(snapped_position(at[axis], vertex.w, offset, grid) == position, "positions are on the grid");
         low[axis] = std::min(low[axis], position), high[axis] = std::max(high[axis], position);
       }
       const float z = vertex.z / vertex.w;

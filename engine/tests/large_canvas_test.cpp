@@ -11,6 +11,7 @@
 #include "corpus/scene.hpp"
 #include "properties/generators/generators.hpp"
 #include "properties/machinery/compare.hpp"
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 #if defined(__GLIBC__)
@@ -55,32 +56,38 @@ corpus::Scene large_scene(std::uint64_t seed, int draws, int width = kWidth) {
   return scene;
 }
 
-void expect_the_reference(const corpus::Scene& scene, Statistics* one_thread) {
+void expect_the_reference(const corpus::Scene& scene, Statistics* statistics, Diagnostics* one_thread) {
   const corpus::Outputs outputs{.barycentrics = false, .attributes = false};
-  Statistics reference;
+  Diagnostics reference;
   corpus::Frame expected(scene, outputs);
-  ASSERT_EQ(render(expected.target(), expected.draws(), &reference, {.path = Path::reference}), Status::ok);
+  ASSERT_EQ(
+      render(expected.target(), expected.draws(), statistics, {.path = Path::reference, .diagnostics = &reference}),
+      Status::ok);
   ASSERT_STREQ(reference.path, "reference");
   for (const int threads : {1, 2, 7}) {
-    Statistics statistics;
+    Statistics here;
+    Diagnostics diagnostics;
     corpus::Frame frame(scene, outputs);
-    ASSERT_EQ(render(frame.target(), frame.draws(), &statistics, {.threads = threads}), Status::ok);
-    ASSERT_STRNE(statistics.path, "reference");
+    ASSERT_EQ(render(frame.target(), frame.draws(), &here, {.threads = threads, .diagnostics = &diagnostics}),
+              Status::ok);
+    ASSERT_STRNE(diagnostics.path, "reference");
+    EXPECT_EQ(here, *statistics);
     const Comparison result = compare(scene, expected.image(), frame.image());
     EXPECT_EQ(result.differences, 0u) << threads << " threads: " << describe(result.first.front(), 1);
-    const auto counters = [](const Statistics& s) {
-      return std::array{s.triangles, s.dropped, s.degenerate, s.culled, s.outside, s.rasterized, s.clipped};
+    const auto counters = [](const Diagnostics& d) {
+      return std::array{d.outside, d.small, d.medium, d.large, d.clipped};
     };
-    if (threads == 1) *one_thread = statistics;
-    EXPECT_EQ(counters(statistics), counters(*one_thread)) << threads << " threads";
+    if (threads == 1) *one_thread = diagnostics;
+    EXPECT_EQ(counters(diagnostics), counters(*one_thread)) << threads << " threads";
   }
 }
 
 TEST(LargeCanvas, FewChunksAndManyEqualTheReference) {
   for (const int draws : {4, 20}) {
     Statistics s;
-    expect_the_reference(large_scene(1, draws, 2100), &s);
-    for (const std::uint64_t some : {s.culled, s.outside, s.rasterized, s.clipped}) EXPECT_GT(some, 0u);
+    Diagnostics d;
+    expect_the_reference(large_scene(1, draws, 2100), &s, &d);
+    for (const std::uint64_t some : {s.culled, s.rasterized, d.outside, d.clipped}) EXPECT_GT(some, 0u);
   }
 }
 
@@ -112,12 +119,12 @@ TEST(LargeCanvas, FullListsChangeNothing) {
     }
     const corpus::Outputs outputs{.barycentrics = false, .attributes = false};
     corpus::Frame expected(parts, outputs), actual(full, outputs);
-    Statistics s;
+    Diagnostics d;
     ASSERT_EQ(render(expected.target(), expected.draws()), Status::ok);
-    ASSERT_EQ(render(actual.target(), actual.draws(), &s), Status::ok);
+    ASSERT_EQ(render(actual.target(), actual.draws(), nullptr, {.diagnostics = &d}), Status::ok);
     const Comparison result = compare(full, expected.image(), actual.image());
     EXPECT_EQ(result.differences, 0u) << describe(result.first.front(), 1);
-    EXPECT_EQ(s.clipped != 0, grid);
+    EXPECT_EQ(d.clipped != 0, grid);
   }
 }
 

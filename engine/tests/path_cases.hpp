@@ -10,6 +10,7 @@
 #include <string>
 
 #include "corpus/scene.hpp"
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::properties {
@@ -40,6 +41,7 @@ struct PathResult {
   bool counts_agree = true;            // of the image and of the stream: of fragments, and of triangles
   std::size_t handed_out = 0;          // items, to the caller's executor
   Statistics statistics;
+  Diagnostics diagnostics;
 };
 PathResult draw_path(const PathScene& of, const Options& options);
 

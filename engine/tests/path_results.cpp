@@ -38,24 +38,20 @@ bool all_clipped(const corpus::Scene& scene) {
   });
 }
 
-// The fast path looks at boxes first, whose borders it rounds to float32. With several samples its numbers are those of
-// sample 0, and other modes have other boxes.
-std::string broken_statistics(const Statistics& s, const Statistics& reference, const corpus::Scene& scene) {
+// With several samples the fast path's numbers are those of sample 0, and other modes have other boxes.
+std::string broken_diagnostics(const PathResult& fast, const PathResult& reference, const corpus::Scene& scene) {
   const bool plain = scene.samples == 1 && std::all_of(scene.draws.begin(), scene.draws.end(), [](const auto& draw) {
                        return !draw.grid && draw.conservative == Conservative::none;
                      });
-  if ((*s.path == '\0') != (*reference.path == '\0')) return "who drew it";
-  if (s.triangles != reference.triangles) return "triangles";
-  if (s.dropped + s.degenerate + s.culled + s.outside + s.rasterized != s.triangles)
-    return "the sum of the first group";
-  if (s.skipped_draws < draws_behind(scene)) return "skipped draws";
-  if (all_clipped(scene) && s.clipped != s.rasterized) return "clipped";
-  if (!plain || s.skipped_draws != 0) return "";
-  if (s.dropped != reference.dropped) return "dropped";
-  if (s.degenerate > reference.degenerate || s.culled > reference.culled) return "degenerate, or culled";
-  if (s.rasterized < reference.rasterized || s.rasterized > reference.rasterized + reference.outside)
-    return "rasterized";
-  if (s.small + s.medium + s.large != s.rasterized) return "the sum of the sizes";
+  const Diagnostics& d = fast.diagnostics;
+  if ((*d.path == '\0') != (*reference.diagnostics.path == '\0')) return "who drew it";
+  if (d.skipped_draws < draws_behind(scene)) return "skipped draws";
+  if (all_clipped(scene) &&
+      (d.clipped > fast.statistics.rasterized || d.clipped + d.outside < fast.statistics.rasterized))
+    return "clipped";
+  if (!plain || d.skipped_draws != 0) return "";
+  if (d.small + d.medium + d.large > fast.statistics.rasterized) return "the sum of the sizes";
+  if (d.small + d.medium + d.large + d.outside < fast.statistics.rasterized) return "what is drawn, or outside";
   return "";
 }
 
@@ -80,12 +76,12 @@ class NoThreads {
 #endif
 };
 
-bool same(const Statistics& a, const Statistics& b) {
-  return a.triangles == b.triangles && a.dropped == b.dropped && a.degenerate == b.degenerate && a.culled == b.culled &&
-         a.outside == b.outside && a.rasterized == b.rasterized && a.small == b.small && a.medium == b.medium &&
-         a.large == b.large && a.clipped == b.clipped && a.signs_by_filter == b.signs_by_filter &&
-         a.signs_by_residual == b.signs_by_residual && a.signs_by_expansion == b.signs_by_expansion &&
-         a.values_by_filter == b.values_by_filter && a.values_by_expansion == b.values_by_expansion;
+bool same(const Diagnostics& a, const Diagnostics& b) {
+  const Rungs &p = a.rungs, &q = b.rungs;
+  return a.outside == b.outside && a.small == b.small && a.medium == b.medium && a.large == b.large &&
+         a.clipped == b.clipped && p.signs_by_filter == q.signs_by_filter &&
+         p.signs_by_residual == q.signs_by_residual && p.signs_by_expansion == q.signs_by_expansion &&
+         p.values_by_filter == q.values_by_filter && p.values_by_expansion == q.values_by_expansion;
 }
 
 }  // namespace
@@ -134,6 +130,7 @@ PathResult draw_path(const PathScene& of, const Options& with) {
     options.executor.context = &result.handed_out;
   }
   const std::unique_ptr<NoThreads> alone(of.alone ? new NoThreads : nullptr);
+  options.diagnostics = &result.diagnostics;
   result.hash = static_cast<std::uint64_t>(render(target, draws, &result.statistics, options));
   for_each([&](auto& value) {
     result.hash = (result.hash ^ std::bit_cast<std::uint32_t>(value)) * 0x9E3779B97F4A7C15u;
@@ -169,12 +166,13 @@ PathResult draw_path(const PathScene& of, const Options& with) {
     }
   };
   Statistics statistics;
-  const Status status =
-      visit_coverage(target.width, target.height, target.samples, draws, {visit, &sink}, &statistics, options);
+  Target size;
+  size.width = target.width, size.height = target.height, size.samples = target.samples;
+  options.diagnostics = nullptr;
+  const Status status = visit_coverage(size, draws, {visit, &sink}, &statistics, options);
   result.stream = sink.sum + static_cast<std::uint64_t>(status);
   if (status == Status::ok && !image.count.empty())
-    result.counts_agree = sink.counts == image.count && statistics.triangles == result.statistics.triangles &&
-                          statistics.dropped == result.statistics.dropped;
+    result.counts_agree = sink.counts == image.count && statistics == result.statistics;
   return result;
 }
 
@@ -184,14 +182,15 @@ std::string broken_path(const PathScene& of, const PathResult& reference) {
   // A half, where the canvas has two, has several bands then.
   if (of.executor && of.scene.height > 128 && fast.handed_out == 0) return "the executor is not asked";
   if (fast.stream != reference.stream || !fast.counts_agree) return "streamed coverage";
-  if (std::string broken = broken_statistics(fast.statistics, reference.statistics, of.scene); !broken.empty())
-    return "statistics: " + broken;
+  if (fast.statistics != reference.statistics) return "statistics";
+  if (std::string broken = broken_diagnostics(fast, reference, of.scene); !broken.empty())
+    return "diagnostics: " + broken;
   if (of.threads == 3) {
     const PathResult alone = draw_path(of, {.threads = 1});
     if (alone.hash != reference.hash) return "the image on one thread";
     // Of draws that a culling box skips, the first thread's numbers are told.
-    const bool skips = fast.statistics.skipped_draws + alone.statistics.skipped_draws != 0;
-    if (!skips && !same(fast.statistics, alone.statistics)) return "statistics on one thread and on several";
+    const bool skips = fast.diagnostics.skipped_draws + alone.diagnostics.skipped_draws != 0;
+    if (!skips && !same(fast.diagnostics, alone.diagnostics)) return "diagnostics on one thread and on several";
   }
   return "";
 }

@@ -12,6 +12,7 @@
 #include "corpus/scene.hpp"
 #include "properties/generators/generators.hpp"
 #include "properties/machinery/compare.hpp"
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 #if !defined(SUREFILL_REFERENCE_ONLY)
@@ -24,9 +25,11 @@ namespace {
 // Draws on a path, and notes its name.
 Renderer on_path(Options options, std::string* path) {
   return [options, path](const Target& target, std::span<const Draw> draws) {
-    Statistics statistics;
-    const Status status = render(target, draws, &statistics, options);
-    *path = statistics.path;
+    Diagnostics diagnostics;
+    Options with = options;
+    with.diagnostics = &diagnostics;
+    const Status status = render(target, draws, nullptr, with);
+    *path = diagnostics.path;
     return status;
   };
 }
@@ -128,16 +131,16 @@ INSTANTIATE_TEST_SUITE_P(Paths, OnTarget, testing::ValuesIn(targets()),
 class Reach : public OnTarget {
  protected:
   // Draws on both paths, expects one image, and returns the fast path's counters.
-  Statistics draw(const corpus::Scene& scene) {
-    Statistics statistics;
+  Diagnostics draw(const corpus::Scene& scene) {
+    Diagnostics diagnostics;
     std::string reference;
     const Renderer fast = [&](const Target& target, std::span<const Draw> draws) {
-      return render(target, draws, &statistics);
+      return render(target, draws, nullptr, {.diagnostics = &diagnostics});
     };
     const Comparison result = compare(scene, on_path({.path = Path::reference}, &reference), fast, outputs_of(scene));
     EXPECT_EQ(result.differences, 0u) << corpus::write_scene(scene);
-    EXPECT_STREQ(statistics.path, hwy::TargetName(GetParam()));
-    return statistics;
+    EXPECT_STREQ(diagnostics.path, hwy::TargetName(GetParam()));
+    return diagnostics;
   }
   static corpus::Scene empty_scene(int size) {
     corpus::Scene scene;
@@ -161,9 +164,9 @@ TEST_P(Reach, EveryClassInEveryLane) {
       // The lanes before are empty: behind the eye, or beyond the target.
       for (std::uint32_t n = 0; n < lane; ++n) add(scene.draws[0], 300, 300, 10);
       add(scene.draws[0], 1.3f, 1.7f, size);
-      const Statistics s = draw(scene);
+      const Diagnostics s = draw(scene);
       const std::uint64_t small = size<14, medium = size> 14 && size<60, large = size> 60;
-      EXPECT_EQ(s.rasterized, 1u) << lane << ' ' << size;
+      EXPECT_EQ(s.outside, lane) << lane << ' ' << size;
       EXPECT_EQ(s.small, small) << lane << ' ' << size;
       EXPECT_EQ(s.medium, medium) << lane << ' ' << size;
       EXPECT_EQ(s.large, large) << lane << ' ' << size;
@@ -179,7 +182,7 @@ TEST_P(Reach, ClippedTrianglesInEveryLane) {
       for (std::uint32_t n = 0; n < lane; ++n) add(scene.draws[0], 300, 300, 10);
       add(scene.draws[0], 20, 30, 50, w);
       if (w >= 0) scene.draws[0].vertices.back().x = scene.draws[0].vertices.back().y = 30;
-      const Statistics s = draw(scene);
+      const Diagnostics s = draw(scene);
       EXPECT_EQ(s.clipped, 1u) << lane << ' ' << w;
       EXPECT_EQ(s.small + s.medium + s.large, 0u) << lane << ' ' << w;
     }
@@ -187,22 +190,22 @@ TEST_P(Reach, ClippedTrianglesInEveryLane) {
 }
 
 TEST_P(Reach, EveryRungOfTheLadder) {
-  Statistics sum;
+  Rungs sum;
+  std::uint64_t outside = 0;
   for (const Category& category : categories()) {
     for (std::uint64_t seed = 0; seed < 40; ++seed) {
-      const Statistics s = draw(mixed_scene(category, seed, 40, 6));
+      const Diagnostics d = draw(mixed_scene(category, seed, 40, 6));
+      const Rungs& s = d.rungs;
       sum.signs_by_filter += s.signs_by_filter;
       sum.signs_by_residual += s.signs_by_residual;
       sum.signs_by_expansion += s.signs_by_expansion;
       sum.values_by_filter += s.values_by_filter;
       sum.values_by_expansion += s.values_by_expansion;
-      sum.dropped += s.dropped, sum.degenerate += s.degenerate, sum.culled += s.culled, sum.outside += s.outside;
-      EXPECT_EQ(s.triangles, s.dropped + s.degenerate + s.culled + s.outside + s.rasterized);
+      outside += d.outside;
     }
   }
-  for (const std::uint64_t reached :
-       {sum.signs_by_filter, sum.signs_by_residual, sum.signs_by_expansion, sum.values_by_filter,
-        sum.values_by_expansion, sum.dropped, sum.degenerate, sum.culled, sum.outside}) {
+  for (const std::uint64_t reached : {sum.signs_by_filter, sum.signs_by_residual, sum.signs_by_expansion,
+                                      sum.values_by_filter, sum.values_by_expansion, outside}) {
     EXPECT_GT(reached, 0u);
   }
 }

@@ -17,6 +17,7 @@
 #include "corpus/scene.hpp"
 #include "properties/generators/generators.hpp"
 #include "properties/machinery/compare.hpp"
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 #if defined(SUREFILL_TBB)
@@ -32,6 +33,12 @@ struct Stream {
   Statistics statistics;
 };
 
+Target size(int width, int height, int samples) {
+  Target target;
+  target.width = width, target.height = height, target.samples = samples;
+  return target;
+}
+
 Stream stream_of(const corpus::Scene& scene, const Options& options) {
   corpus::Frame frame(scene, {.index = false, .depth = false, .barycentrics = false, .attributes = false});
   Stream stream;
@@ -45,8 +52,8 @@ Stream stream_of(const corpus::Scene& scene, const Options& options) {
     const std::lock_guard lock(*to.mutex);
     to.stream->blocks.insert(to.stream->blocks.end(), blocks.begin(), blocks.end());
   };
-  EXPECT_EQ(visit_coverage(scene.width, scene.height, scene.samples, frame.draws(), {visit, &sink}, &stream.statistics,
-                           options),
+  EXPECT_EQ(visit_coverage(size(scene.width, scene.height, scene.samples), frame.draws(), {visit, &sink},
+                           &stream.statistics, options),
             Status::ok);
   return stream;
 }
@@ -121,7 +128,7 @@ TEST(Streaming, AFullBlockIsSaidToBeOne) {
     const Sink& to = *static_cast<Sink*>(context);
     for (const CoverageBlock& block : blocks) *to.full += block.full(), ++*to.all;
   };
-  EXPECT_EQ(visit_coverage(60, 16, 1, {&draw, 1}, {visit, &sink}), Status::ok);
+  EXPECT_EQ(visit_coverage(size(60, 16, 1), {&draw, 1}, {visit, &sink}), Status::ok);
   EXPECT_EQ(all, 16);
   EXPECT_EQ(full, 14);  // the last column of blocks has four of its eight columns of pixels
 }
@@ -129,13 +136,25 @@ TEST(Streaming, AFullBlockIsSaidToBeOne) {
 TEST(Streaming, ArgumentsAreChecked) {
   const auto visit = [](void*, std::span<const CoverageBlock>) {};
   const CoverageVisitor visitor{visit, nullptr};
-  EXPECT_EQ(visit_coverage(0, 16, 1, {}, visitor), Status::target_size);
-  EXPECT_EQ(visit_coverage(16, 16, 3, {}, visitor), Status::target_samples);
-  EXPECT_EQ(visit_coverage(16, 16, 1, {}, {}), Status::visitor);
-  EXPECT_EQ(visit_coverage(16, 16, 1, {}, visitor, nullptr, {.threads = 0}), Status::options_threads);
+  EXPECT_EQ(visit_coverage(size(0, 16, 1), {}, visitor), Status::target_size);
+  EXPECT_EQ(visit_coverage(size(16, 16, 3), {}, visitor), Status::target_samples);
+  EXPECT_EQ(visit_coverage(size(16, 16, 1), {}, {}), Status::visitor);
+  std::vector<float> values(3 * 256);
+  std::vector<std::uint32_t> words(256);
+  const AttributeTarget attribute{std::span(values).first(256), 1};
+  for (int output = 0; output < 5; ++output) {
+    Target target = size(16, 16, 1);
+    if (output == 0) target.count = words;
+    if (output == 1) target.index = words;
+    if (output == 2) target.depth = std::span(values).first(256);
+    if (output == 3) target.barycentrics = values;
+    if (output == 4) target.attributes = {&attribute, 1};
+    EXPECT_EQ(visit_coverage(target, {}, visitor), Status::target_outputs) << output;
+  }
+  EXPECT_EQ(visit_coverage(size(16, 16, 1), {}, visitor, nullptr, {.threads = 0}), Status::options_threads);
   Draw draw;
   draw.indices = {static_cast<const std::uint32_t*>(nullptr), 3};
-  EXPECT_EQ(visit_coverage(16, 16, 1, {&draw, 1}, visitor), Status::draw_indices);
+  EXPECT_EQ(visit_coverage(size(16, 16, 1), {&draw, 1}, visitor), Status::draw_indices);
 }
 
 // Runs the items backwards, on threads of its own that begin with another rounding mode.
@@ -213,9 +232,10 @@ TEST(CullingBoxes, SkipDrawsAndChangeNothing) {
         if (!scene.draws[0].vertices.empty()) scene.draws.insert(scene.draws.begin(), wall);
       }
       const Renderer boxed = [&](const Target& target, std::span<const Draw> draws) {
-        Statistics statistics;
-        const Status status = render(target, draws, &statistics, {.threads = 1 + static_cast<int>(seed % 2)});
-        skipped += statistics.skipped_draws;
+        Diagnostics diagnostics;
+        const Status status =
+            render(target, draws, nullptr, {.threads = 1 + static_cast<int>(seed % 2), .diagnostics = &diagnostics});
+        skipped += diagnostics.skipped_draws;
         return status;
       };
       for (const bool with_count : {true, false}) {
@@ -256,9 +276,9 @@ TEST(CullingBoxes, TellWhatIsHidden) {
     target.depth_test = test;
     draws[1].depth_mode = mode;
     for (Vertex& corner : box) corner.z = z;
-    Statistics statistics;
-    ASSERT_EQ(render(target, draws, &statistics), Status::ok);
-    EXPECT_EQ(statistics.skipped_draws, skipped) << z;
+    Diagnostics diagnostics;
+    ASSERT_EQ(render(target, draws, nullptr, {.diagnostics = &diagnostics}), Status::ok);
+    EXPECT_EQ(diagnostics.skipped_draws, skipped) << z;
   }
 }
 #endif

@@ -14,9 +14,8 @@ using namespace textbook;
 template <class Covers>
 std::string against_oracle(TriangleCase c, FillRule rule, const char* name, const Covers& covers) {
   c.rule = rule;
-  Statistics statistics;
   Triangle triangle;
-  if (!c.all_finite() || !triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2], statistics)) return "";
+  if (!c.all_finite() || !triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2])) return "";
   const std::vector<std::uint32_t> expected = c.counts();
   for (int y = 0; y < c.height; ++y) {
     for (int x = 0; x < c.width; ++x) {
@@ -95,12 +94,10 @@ TEST(TextbookFillRules, EveryLightPartitionsAFan) {
         std::set<std::uint32_t> owners, by_rule;
         for (std::size_t k = 0; k < rim.size(); ++k) {
           Triangle triangle;
-          Statistics statistics;
-          if (!triangle.set_up(middle, rim[k], rim[(k + 1) % rim.size()], statistics)) continue;
+          if (!triangle.set_up(middle, rim[k], rim[(k + 1) % rim.size()])) continue;
           const SamplePosition p{x + 0.5, y + 0.5};
           if (covers_by_light(triangle, p, light)) ++covers, owners.insert(static_cast<std::uint32_t>(k));
-          if (triangle.covers(p, tie_shift(FillRule::top_left), statistics))
-            by_rule.insert(static_cast<std::uint32_t>(k));
+          if (triangle.covers(p, tie_shift(FillRule::top_left))) by_rule.insert(static_cast<std::uint32_t>(k));
         }
         if (covers != 1) return "sample covered " + std::to_string(covers) + " times";
         if (owners != by_rule) ++other_rule;
@@ -125,12 +122,11 @@ TEST(TextbookFillRules, AMovedSampleGridIsTopLeft) {
            std::ldexp(static_cast<float>(random.between(-8, 64)), -bits), 0, 1};
     }
     return against_oracle(c, FillRule::top_left, "moved samples", [&](const Triangle& t, SamplePosition p) {
-      Statistics statistics;
       bool covered = true;
       for (int i = 0; i < 3; ++i) {
-        const int sign = t.edge(i).sign(moved_sample(p, bits), statistics);
+        const int sign = t.edge(i).sign(moved_sample(p, bits));
         if (sign == 0) ADD_FAILURE() << "a moved sample lies on an edge";
-        if (t.edge(i).sign(p, statistics) == 0) ++ties;
+        if (t.edge(i).sign(p) == 0) ++ties;
         covered = covered && sign == t.determinant();
       }
       return covered;
@@ -144,15 +140,14 @@ TEST(TextbookFillRules, AgreeOffTheEdgesAndDifferOnThem) {
   bool differ[8][8] = {};
   for (std::uint64_t n = 0; n < 4'000; ++n) {
     TriangleCase c = random_triangle(n, false);
-    Statistics statistics;
     Triangle triangle;
-    if (!c.all_finite() || !triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2], statistics)) continue;
+    if (!c.all_finite() || !triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2])) continue;
     for (int y = 0; y < c.height; ++y) {
       for (int x = 0; x < c.width; ++x) {
         const SamplePosition p{x + 0.5, y + 0.5};
         bool covered[8], tie = false;
-        for (int r = 0; r < 8; ++r) covered[r] = triangle.covers(p, tie_shift(static_cast<FillRule>(r)), statistics);
-        for (int i = 0; i < 3; ++i) tie = tie || triangle.edge(i).sign(p, statistics) == 0;
+        for (int r = 0; r < 8; ++r) covered[r] = triangle.covers(p, tie_shift(static_cast<FillRule>(r)));
+        for (int i = 0; i < 3; ++i) tie = tie || triangle.edge(i).sign(p) == 0;
         for (int r = 0; r < 8; ++r) {
           for (int q = 0; q < 8; ++q) differ[r][q] = differ[r][q] || covered[r] != covered[q];
           EXPECT_TRUE(tie || covered[r] == covered[0]);

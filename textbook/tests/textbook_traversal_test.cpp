@@ -32,10 +32,9 @@ struct Seen {
 };
 
 std::string decide_traversals(const TriangleCase& c, bool every_sample, int tile_size) {
-  Statistics statistics;
   Triangle triangle;
   const std::vector<std::uint32_t> expected = c.counts();
-  if (!c.all_finite() || !triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2], statistics)) {
+  if (!c.all_finite() || !triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2])) {
     return std::any_of(expected.begin(), expected.end(), [](std::uint32_t n) { return n != 0; }) ? "D = 0 covers" : "";
   }
   for (int n = 0; n < c.samples; ++n) {
@@ -102,9 +101,8 @@ std::string decide_tiles(const TriangleCase& c, int log2, std::atomic<std::uint6
   }
   scaled.width = std::min((c.width >> log2) + 1, kMaxTargetSize);
   scaled.height = std::min((c.height >> log2) + 1, kMaxTargetSize);
-  Statistics statistics;
   Triangle triangle;
-  if (!triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2], statistics)) return "";
+  if (!triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2])) return "";
   const std::vector<std::uint32_t> touched = scaled.counts(Conservative::over),
                                    inside = scaled.counts(Conservative::inner);
   for (int y = 0; y < scaled.height; ++y) {

@@ -105,12 +105,11 @@ TEST(TextbookInterpolation, AffineWIsExactWhereWIsConstant) {
 // On an edge, and z is exactly 0 or 1: the edge that decides the tie may be what clipping has removed, and a triangle
 // that touches the plane with an edge has no area left. I5 keeps such samples by C3; a clipped polygon does not know.
 bool in_a_corner(const TriangleCase& c, SamplePosition p) {
-  Statistics statistics;
   Triangle triangle;
-  triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2], statistics);
-  if (triangle.compare_depth(p, 0, statistics) != 0 && triangle.compare_depth(p, 1, statistics) != 0) return false;
+  triangle.set_up(c.vertices[0], c.vertices[1], c.vertices[2]);
+  if (triangle.compare_depth(p, 0) != 0 && triangle.compare_depth(p, 1) != 0) return false;
   for (int i = 0; i < 3; ++i) {
-    if (triangle.edge(i).sign(p, statistics) == 0) return true;
+    if (triangle.edge(i).sign(p) == 0) return true;
   }
   return false;
 }

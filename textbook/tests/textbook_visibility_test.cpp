@@ -96,10 +96,9 @@ std::string decide_depth_buffers(Crowd crowd, DepthTotals& totals) {
   for (const bool hierarchical : {false, true}) {
     DepthBuffer buffer(crowd.width, crowd.height, hierarchical);
     for (std::uint32_t t = 0; t < crowd.triangles.size(); ++t) {
-      Statistics statistics;
       Triangle triangle;
       const std::array<Vertex, 3>& v = crowd.triangles[t];
-      if (triangle.set_up(v[0], v[1], v[2], statistics)) buffer.draw(triangle, t, FillRule::top_left);
+      if (triangle.set_up(v[0], v[1], v[2])) buffer.draw(triangle, t, FillRule::top_left);
     }
     (hierarchical ? totals.reads : totals.plain_reads) += buffer.counts().depth_reads;
     totals.behind += buffer.counts().tiles_behind;
@@ -134,10 +133,9 @@ std::string decide_painter(Crowd crowd, PainterTotals& totals) {
   std::vector<Piece<mpq_class>> pieces, order;
   std::vector<Triangle> triangles(crowd.triangles.size());
   std::vector<bool> covers_something(crowd.triangles.size());
-  Statistics statistics;
   for (std::uint32_t t = 0; t < crowd.triangles.size(); ++t) {
     const std::array<Vertex, 3>& v = crowd.triangles[t];
-    covers_something[t] = triangles[t].set_up(v[0], v[1], v[2], statistics);
+    covers_something[t] = triangles[t].set_up(v[0], v[1], v[2]);
     pieces.push_back(piece_of<mpq_class>(v, t, crowd.width, crowd.height));
   }
   const std::size_t whole = static_cast<std::size_t>(
@@ -150,7 +148,7 @@ std::string decide_painter(Crowd crowd, PainterTotals& totals) {
     for (int x = 0; x < crowd.width; ++x) {
       const SamplePosition p{x + 0.5, y + 0.5};
       const auto covers = [&](std::size_t t) {
-        return covers_something[t] && triangles[t].covers(p, tie_shift(FillRule::top_left), statistics);
+        return covers_something[t] && triangles[t].covers(p, tie_shift(FillRule::top_left));
       };
       std::uint32_t painted = kNoTriangle;  // by the last piece that paints here
       for (std::size_t k = order.size(); k-- > 0 && painted == kNoTriangle;) {
@@ -160,7 +158,7 @@ std::string decide_painter(Crowd crowd, PainterTotals& totals) {
           static_cast<std::size_t>(y) * static_cast<std::size_t>(crowd.width) + static_cast<std::size_t>(x);
       int nearest = 0;
       for (std::size_t t = 0; t < triangles.size(); ++t) {
-        if (covers(t) && triangles[t].rounded_depth(p, statistics) == crowd.depth[s]) ++nearest;
+        if (covers(t) && triangles[t].rounded_depth(p) == crowd.depth[s]) ++nearest;
       }
       if (nearest > 1) {
         ++totals.ties;

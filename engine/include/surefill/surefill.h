@@ -54,14 +54,14 @@ typedef enum surefill_status {
   SUREFILL_TARGET_OVERLAP,       /* an output, statistics and answers too, overlaps another or what the call reads; only
                                     initial_depth and depth may be the same */
   SUREFILL_TARGET_DEPTH_TEST,    /* not a surefill_depth_test */
-  SUREFILL_TARGET_ATTRIBUTE_LOCATION, /* not a surefill_attribute_location */
-  SUREFILL_DRAWS,                     /* draws is null, and draw_count is not 0 */
-  SUREFILL_DRAW_VERTICES,           /* vertices null or more than 2^32 - 1; of to_pixel: null, or in and out overlap */
-  SUREFILL_DRAW_INDICES,            /* indices null, no multiple of 3, or more than 2^32 - 2 triangles */
-  SUREFILL_DRAW_INDEX_OUT_OF_RANGE, /* an index that names no vertex */
-  SUREFILL_DRAW_IDENTIFIERS,        /* neither 0 nor one for each triangle, or one is SUREFILL_NO_TRIANGLE [B5] */
-  SUREFILL_DRAW_FIRST_INDEX,        /* first_index + triangles exceeds 2^32 - 1 [B5] */
-  SUREFILL_DRAW_ATTRIBUTES,         /* fewer arrays than the target asks for, other components, or too short */
+  SUREFILL_TARGET_ATTRIBUTE_LOCATION,    /* not a surefill_attribute_location */
+  SUREFILL_DRAWS,                        /* draws is null, and draw_count is not 0 */
+  SUREFILL_DRAW_VERTICES,                /* vertices null or more than 2^32 - 1 */
+  SUREFILL_DRAW_INDICES,                 /* indices null, no multiple of 3, or more than 2^32 - 2 triangles */
+  SUREFILL_DRAW_INDEX_OUT_OF_RANGE,      /* an index that names no vertex */
+  SUREFILL_DRAW_IDENTIFIERS,             /* neither 0 nor one for each triangle, or one is SUREFILL_NO_TRIANGLE [B5] */
+  SUREFILL_DRAW_FIRST_INDEX,             /* first_index + triangles exceeds 2^32 - 1 [B5] */
+  SUREFILL_DRAW_ATTRIBUTES,              /* fewer arrays than the target asks for, other components, or too short */
   SUREFILL_DRAW_ATTRIBUTE_INTERPOLATION, /* not a surefill_interpolation */
   SUREFILL_DRAW_FILL_RULE,               /* not a surefill_fill_rule, or closed or open with a grid */
   SUREFILL_DRAW_FRONT_FACE,              /* not a surefill_front_face */
@@ -75,6 +75,8 @@ typedef enum surefill_status {
   SUREFILL_QUERY_BOXES,                  /* boxes or rectangles null, or with a number that is not finite */
   SUREFILL_QUERY_ANSWERS,                /* answers null, or not one for each box */
   SUREFILL_BAD_BUILD = 33, /* the library was compiled with options that break exact arithmetic (docs/library.md) */
+  SUREFILL_TO_PIXEL_VERTICES = 34, /* of to_pixel: vertices or results null, or they overlap */
+  SUREFILL_TARGET_OUTPUTS = 35,    /* of streams, which C has not: the target asks for an output */
   /* Of this interface alone. */
   SUREFILL_NULL_TARGET = 1000,     /* target is null */
   SUREFILL_NULL_VIEWPORT,          /* viewport is null */
@@ -245,15 +247,15 @@ typedef struct surefill_options {
   surefill_context* context; /* where working memory comes from and stays, or NULL */
 } surefill_options;
 
-/* What one call did. The first group adds up to `triangles`. */
+/* What the triangles of a call were; each counts once, as the first that fits [M11]. */
 typedef struct surefill_statistics {
   size_t struct_size; /* sizeof(surefill_statistics), set by the caller */
   uint64_t triangles;
   uint64_t dropped;    /* a NaN or an infinity [B1] */
   uint64_t degenerate; /* D = 0 [C1] */
   uint64_t culled;     /* by facing [F2] */
-  uint64_t outside;    /* no sample of the target lies in the triangle's screen box */
-  uint64_t rasterized; /* the rest */
+  uint64_t outside;    /* 0 since 0.2: such triangles are among those rasterized */
+  uint64_t rasterized; /* the rest, whether they cover a sample or none */
   const char* path;    /* what drew the frame: "reference", or an instruction set; a string constant */
 } surefill_statistics;
 
@@ -277,7 +279,7 @@ SUREFILL_API const char* surefill_version(void);
 SUREFILL_API const char* surefill_status_text(surefill_status status);
 
 /* The viewport map [S3]: `count` vertices of clip space to `out`, pixel-homogeneous. Each component is the exact real
- * value, rounded once to float32. Errors: NULL_VIEWPORT, VIEWPORT, DRAW_VERTICES (NULL with count > 0, or `out`
+ * value, rounded once to float32. Errors: NULL_VIEWPORT, VIEWPORT, TO_PIXEL_VERTICES (NULL with count > 0, or `out`
  * overlaps what is read), BAD_BUILD. */
 SUREFILL_API surefill_status surefill_to_pixel(const surefill_viewport* viewport, const surefill_vertex* vertices,
                                                size_t count, surefill_vertex* out);

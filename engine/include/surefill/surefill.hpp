@@ -2,7 +2,21 @@
 //
 // Surefill: an exact triangle rasterizer.
 //
-// Every output bit is defined by docs/semantics.md; the letters in brackets below (S2, C3, I4, ...) are its rules.
+//     #include <surefill/surefill.hpp>
+//     #include <vector>
+//
+//     std::vector<surefill::Vertex> vertices = {{2, 1, 0.5f, 1}, {38, 5, 0.25f, 1}, {4, 14, 0.75f, 1}};  // X, Y, Z, W
+//     std::vector<std::uint32_t> indices = {0, 1, 2}, seen(40 * 16);
+//     surefill::Target target{.width = 40, .height = 16};
+//     target.index = seen;
+//     surefill::Draw draw;
+//     draw.vertices = vertices, draw.indices = indices;
+//     const surefill::Status status = surefill::render(target, {&draw, 1});
+//     if (status != surefill::Status::ok) std::puts(surefill::status_text(status));
+//     // seen[40 * y + x] is the triangle at pixel (x, y), or kNoTriangle.
+//
+// Every output bit is defined by docs/semantics.md, which is installed as share/doc/surefill/semantics.md; the letters in
+// brackets below (S2, C3, I4, ...) are its rules.
 //
 // Space      Pixels: x to the right, y down; pixel (i, j) is [i, i+1) x [j, j+1) [S1]. A vertex (X, Y, Z, W) is
 //            pixel-homogeneous: where W > 0 it projects to pixel position (X/W, Y/W) and depth Z/W [S2]. Any sign of
@@ -36,6 +50,21 @@
 #include "surefill/version.hpp"
 
 namespace surefill {
+
+enum class Status : std::uint32_t;
+struct Target;
+struct Draw;
+struct Statistics;
+struct Options;
+struct Diagnostics;  // surefill/diagnostics.hpp
+
+// Draws a frame: the draws in order, each onto the image of those before it [V3]. Nothing is written unless the status
+// is ok, or out_of_memory (then the buffers asked for hold unspecified values). `statistics` may be null; what it gets
+// takes a pass of its own over the triangles, on the calling thread.
+SUREFILL_API Status render(const Target& target, std::span<const Draw> draws,
+                           Statistics* statistics = nullptr) noexcept;
+SUREFILL_API Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
+                           const Options& options) noexcept;
 
 inline constexpr int kMaxTargetSize = 16384;               // pixels, each way
 inline constexpr std::size_t kMaxAttributes = 16;          // attribute arrays of a draw
@@ -79,6 +108,8 @@ enum class Status : std::uint32_t {
   query_answers,                 // null but not empty, or not one for each box
   visitor,                       // of visit_coverage: its function is null
   bad_build,                     // the library was compiled with options that break exact arithmetic (docs/library.md)
+  to_pixel_vertices,             // of to_pixel: vertices or out are null but not empty, of two sizes, or overlap
+  target_outputs,                // of visit_coverage: the target asks for an output
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
@@ -214,34 +245,18 @@ struct Target {
   AttributeLocation attribute_location = AttributeLocation::centre;
 };
 
-// What one call to render did. The first group adds up to `triangles`; with several samples a pixel, the fast path's is
-// that of sample 0.
+// What the triangles of a call's draws were: each counts once, as the first that fits [M11]. It tells of the draws
+// alone: neither the target nor the options have a part in it.
 struct Statistics {
-  std::uint64_t triangles = 0;
   std::uint64_t dropped = 0;     // a NaN or an infinity [B1]
-  std::uint64_t degenerate = 0;  // D = 0 [C1]
+  std::uint64_t degenerate = 0;  // D = 0 [C1, G1]
   std::uint64_t culled = 0;      // by facing [F2]
-  std::uint64_t outside = 0;  // no sample of the target lies in its screen box (the fast path looks at this before D)
-  std::uint64_t rasterized = 0;  // the rest
-  // Of the rest, on the fast path, by the box of samples that can be covered: within 4 x 4 cells of 4 x 4 samples,
-  // within 8 x 8 blocks of 8 x 8, larger; and those that Grid clips.
-  std::uint64_t small = 0, medium = 0, large = 0, clipped = 0;
+  std::uint64_t rasterized = 0;  // the rest, whether they cover a sample or none
 
-  // Signs of edge functions and of D by the rung of the ladder that settled them; on the fast path, of edge functions
-  // only where its integers were uncertain.
-  std::uint64_t signs_by_filter = 0;     // double arithmetic with an error bound
-  std::uint64_t signs_by_residual = 0;   // double arithmetic proved exact, real ties among them
-  std::uint64_t signs_by_expansion = 0;  // exact expansions
-  // Values (depths, weights, attributes, clip decisions) in the same way; depths of the fast path only where it was
-  // uncertain.
-  std::uint64_t values_by_filter = 0;
-  std::uint64_t values_by_expansion = 0;
-
-  // By a culling box [M6], on the fast path; with several threads, as far as the first one's rows tell. Their triangles
-  // count as outside.
-  std::uint64_t skipped_draws = 0;
-
-  const char* path = "";  // what drew the frame: "reference", or the fast path's instruction set; a string constant
+  // All triangles of the call.
+  std::uint64_t triangles() const { return dropped + degenerate + culled + rasterized; }
+  // Equality, member by member.
+  bool operator==(const Statistics&) const = default;
 };
 
 // Who draws. Both paths give the same image.
@@ -287,6 +302,7 @@ struct Options {
   Path path = Path::automatic;
   Executor executor = {};      // whose threads work if `run` is not null; else the call starts threads - 1 of its own
   Context* context = nullptr;  // where working memory comes from and stays, or null
+  Diagnostics* diagnostics = nullptr;  // how the frame came about (surefill/diagnostics.hpp), or null
 };
 
 // The samples of an 8 x 8 block of pixels that a triangle covers.
@@ -310,19 +326,13 @@ struct CoverageVisitor {
 // only there.
 SUREFILL_API std::size_t sample_total(const Target& target) noexcept;
 
-// Draws a frame: the draws in order, each onto the image of those before it [V3]. Nothing is written unless the status
-// is ok, or out_of_memory (then the buffers asked for hold unspecified values). `statistics` may be null.
-SUREFILL_API Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics = nullptr,
-                           const Options& options = {}) noexcept;
-
 // Streams coverage instead of storing an image: `visitor` receives, for each sample number, draw and triangle, the
 // blocks with samples that the triangle covers, as M2 counts them: dropped and culled triangles, scissor and depth clip
-// are taken into account, the depth test is not. Within a tile of 64 x 64 pixels the triangles of a sample number come
-// in order and one at a time; with several threads, those of other tiles come at once. The visitor returns normally.
-// Memory: 32 MiB and 1 MiB a thread.
-SUREFILL_API Status visit_coverage(int width, int height, int samples, std::span<const Draw> draws,
-                                   const CoverageVisitor& visitor, Statistics* statistics = nullptr,
-                                   const Options& options = {}) noexcept;
+// are taken into account, the depth test is not. The target gives size and samples, and asks for no output. Within a
+// tile of 64 x 64 pixels the triangles of a sample number come in order and one at a time; with several threads, those
+// of other tiles come at once. The visitor returns normally. Memory: 32 MiB and 1 MiB a thread.
+SUREFILL_API Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                                   Statistics* statistics = nullptr, const Options& options = {}) noexcept;
 
 // Checks the arguments of render as render does, and draws nothing.
 SUREFILL_API Status validate(const Target& target, std::span<const Draw> draws) noexcept;

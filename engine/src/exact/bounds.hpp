@@ -10,15 +10,9 @@
 #include <cmath>
 #include <limits>
 
-#include "surefill/surefill.hpp"
+#include "../facts.hpp"
 
 namespace surefill {
-
-// Half-open rectangle of pixels.
-struct PixelBox {
-  int x0, y0, x1, y1;
-  bool empty() const { return x0 >= x1 || y0 >= y1; }
-};
 
 // An interval of real numbers: what a triangle reaches along one axis in front of the eye.
 struct Reach {

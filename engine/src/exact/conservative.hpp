@@ -12,12 +12,12 @@ namespace surefill {
 // The closed square of pixel (x, y) against a triangle with D != 0.
 class PixelSquare {
  public:
-  PixelSquare(const Triangle& triangle, int x, int y, Statistics& statistics) : triangle_(triangle), x_(x), y_(y) {
+  PixelSquare(const Triangle& triangle, int x, int y, Rungs* rungs = nullptr) : triangle_(triangle), x_(x), y_(y) {
     const double left = x, right = x + 1, top = y, bottom = y + 1;
     const SamplePosition corner[4] = {{left, top}, {right, top}, {right, bottom}, {left, bottom}};
     for (int i = 0; i < 3; ++i) {
       for (int c = 0; c < 4; ++c) {
-        sign_[i][c] = triangle.edge(i).sign(corner[c], statistics) * triangle.determinant();
+        sign_[i][c] = triangle.edge(i).sign(corner[c], rungs) * triangle.determinant();
       }
     }
   }

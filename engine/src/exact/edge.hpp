@@ -7,15 +7,16 @@
 
 #include <cmath>
 
+#include "../facts.hpp"
 #include "exact.hpp"
-#include "surefill/surefill.hpp"
+#include "surefill/diagnostics.hpp"
 
 namespace surefill {
 
-// A sample position in pixels: a multiple of 1/16 in [0, kMaxTargetSize], exact in double.
-struct SamplePosition {
-  double x, y;
-};
+// Counts a decision, where somebody asks.
+inline void count(Rungs* rungs, std::uint64_t Rungs::*rung) {
+  if (rungs != nullptr) ++(rungs->*rung);
+}
 
 // Relative to the sum of absolute terms, the rounding error of a x + b y + c is below 8 units of 2^-53: one for a
 // coefficient (its products are exact), one for the product, two for the sums, and as much again for the sum of
@@ -68,22 +69,22 @@ struct EdgeFunction {
   }
 
   // The sign of E at p, 0 for a real tie.
-  int sign(SamplePosition p, Statistics& statistics) const {
+  int sign(SamplePosition p, Rungs* rungs = nullptr) const {
     double bound;
     const double estimate = value(p, &bound);
     if (std::fabs(estimate) > bound) {
-      ++statistics.signs_by_filter;
+      count(rungs, &Rungs::signs_by_filter);
       return sign_of(estimate);
     }
     if (exact) {
       const DoublePair ax = two_product(a, p.x), by = two_product(b, p.y);
       const DoublePair ab = two_sum(ax.value, by.value), abc = two_sum(ab.value, c);
       if (ax.error == 0 && by.error == 0 && ab.error == 0 && abc.error == 0) {
-        ++statistics.signs_by_residual;
+        count(rungs, &Rungs::signs_by_residual);
         return sign_of(abc.value);
       }
     }
-    ++statistics.signs_by_expansion;
+    count(rungs, &Rungs::signs_by_expansion);
     return exact_value(p).sign();
   }
 };
@@ -149,14 +150,14 @@ inline Expansion<12> exact_determinant(const Vertex& v0, const Vertex& v1, const
 }
 
 // The sign of D = det(m0, m1, m2). `edge0` is the edge from v1 to v2: D is its value at m0, with the same error bound.
-inline int determinant_sign(const EdgeFunction& edge0, const Vertex& v0, Statistics& statistics) {
+inline int determinant_sign(const EdgeFunction& edge0, const Vertex& v0, Rungs* rungs = nullptr) {
   const double ax = edge0.a * v0.x, by = edge0.b * v0.y, cw = edge0.c * v0.w;
   const double estimate = (ax + by) + cw;
   if (std::fabs(estimate) > kEdgeErrorBound * ((std::fabs(ax) + std::fabs(by)) + std::fabs(cw))) {
-    ++statistics.signs_by_filter;
+    count(rungs, &Rungs::signs_by_filter);
     return sign_of(estimate);
   }
-  ++statistics.signs_by_expansion;
+  count(rungs, &Rungs::signs_by_expansion);
   return exact_determinant(v0, edge0.from, edge0.to).sign();
 }
 

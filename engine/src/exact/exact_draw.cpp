@@ -3,54 +3,64 @@
 
 #include "conservative.hpp"
 
-namespace surefill::fast {
-namespace {
+namespace surefill {
 
-const Vertex& vertex(const Draw& draw, std::uint32_t position, std::size_t k) {
-  return draw.vertices[draw.indices[std::size_t{3} * position + k]];
+int orientation(const Draw& draw, std::uint32_t position, Rungs* rungs) {
+  const EdgeFunction edge(vertex_of(draw, position, 1), vertex_of(draw, position, 2));
+  return determinant_sign(edge, vertex_of(draw, position, 0), rungs);
 }
 
-}  // namespace
-
-int orientation(const Draw& draw, std::uint32_t position, Statistics& statistics) {
-  const EdgeFunction edge(vertex(draw, position, 1), vertex(draw, position, 2));
-  return determinant_sign(edge, vertex(draw, position, 0), statistics);
+bool is_degenerate(const Draw& draw, std::uint32_t position) {
+  if (!draw.grid) return true;
+  Triangle triangle;
+  triangle.set_up(vertex_of(draw, position, 0), vertex_of(draw, position, 1), vertex_of(draw, position, 2));
+  return hull_contains_eye(triangle);
 }
 
-void ExactDraw::use(const Draw& draw, std::uint32_t position) {
-  if (draw_ == &draw && position_ == position) return;
+bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
+  if (draw_ == &draw && position_ == position) return covers_something_;
   draw_ = &draw, position_ = position;
-  const Vertex &v0 = vertex(draw, position, 0), &v1 = vertex(draw, position, 1), &v2 = vertex(draw, position, 2);
-  Statistics unused;
-  if (draw.grid) {
-    snapped_.set_up(v0, v1, v2, *draw.grid, unused);
-  } else {
-    triangle_.set_up(v0, v1, v2, unused);
-  }
+  const Vertex &v0 = vertex_of(draw, position, 0), &v1 = vertex_of(draw, position, 1),
+               &v2 = vertex_of(draw, position, 2);
+  covers_something_ = draw.grid ? snapped_.set_up(v0, v1, v2, *draw.grid, rungs) : triangle_.set_up(v0, v1, v2, rungs);
+  return covers_something_;
 }
 
-bool ExactDraw::covers(SamplePosition p, TieShift shift, Statistics& statistics) const {
-  return draw_->grid ? snapped_.winding(p, shift) != 0 : triangle_.covers(p, shift, statistics);
+PixelBox ExactDraw::box(const PixelBox& limits, double least_offset, double largest_offset) const {
+  if (draw_->grid) return snapped_.box(limits, least_offset, largest_offset);
+  const bool squares = draw_->conservative != Conservative::none;
+  return screen_box(triangle_.vertex(0), triangle_.vertex(1), triangle_.vertex(2), limits, squares ? 0 : least_offset,
+                    squares ? 1 : largest_offset);
 }
 
-bool ExactDraw::counts_square(int x, int y, Statistics& statistics) const {
-  const PixelSquare square(triangle_, x, y, statistics);
+bool ExactDraw::draws_square(int x, int y, Rungs* rungs) const {
+  const PixelSquare square(triangle_, x, y, rungs);
   return draw_->conservative == Conservative::over ? square.touched() : square.inside();
 }
 
-bool ExactDraw::depth(SamplePosition p, float* stored, Statistics& statistics) {
-  return draw_->grid ? snapped_.depth(p, draw_->depth_mode, stored, statistics)
-                     : triangle_.depth(p, draw_->depth_mode, stored, statistics);
+bool ExactDraw::depth(SamplePosition p, float* stored, Rungs* rungs) {
+  return draw_->grid ? snapped_.depth(p, draw_->depth_mode, stored, rungs)
+                     : triangle_.depth(p, draw_->depth_mode, stored, rungs);
 }
 
 bool ExactDraw::has_values(SamplePosition p) const {
-  Statistics unused;
-  return draw_->grid ? snapped_.has_weights(p, unused) : triangle_.plane_in_front(p);
+  return draw_->grid ? snapped_.has_weights(p) : triangle_.plane_in_front(p);
 }
 
-float ExactDraw::attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Statistics& statistics) {
-  return draw_->grid ? snapped_.attribute(p, u, interpolation, statistics)
-                     : triangle_.attribute(p, u, interpolation, statistics);
+SamplePosition ExactDraw::place_of_attributes(const Target& target, int x, int y, TieShift shift) const {
+  const SamplePosition centre{x + 0.5, y + 0.5};
+  if (target.samples == 1) return centre;
+  if (target.attribute_location == AttributeLocation::centre && has_values(centre)) return centre;
+  if (covers(centre, shift)) return centre;
+  for (int n = 0; n < target.samples; ++n) {
+    const SamplePosition offset = sample_offset(target.samples, n), p{x + offset.x, y + offset.y};
+    if (covers(p, shift)) return p;
+  }
+  return centre;  // not reached: the triangle is seen at a sample of this pixel
 }
 
-}  // namespace surefill::fast
+float ExactDraw::attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs) {
+  return draw_->grid ? snapped_.attribute(p, u, interpolation, rungs) : triangle_.attribute(p, u, interpolation, rungs);
+}
+
+}  // namespace surefill

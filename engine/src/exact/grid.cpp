@@ -134,26 +134,6 @@ void clip_to_guard_band(const Triangle& triangle, GuardPolygon* polygon) {
   }
 }
 
-// Does the hull of m0, m1, m2 contain 0, for D = 0?
-//
-// If a product m_j x m_k is not 0, the three are multiples of one normal, and the weights l with l_0 m_0 + l_1 m_1 +
-// l_2 m_2 = 0 are those multiples, up to a factor: the signs of any component of the products that is not 0 throughout
-// tell. Else the three vectors are multiples of one direction (or 0), and the hull misses 0 exactly if they are
-// positive multiples of one of them: if a coordinate has one sign, other than 0, in all three.
-bool hull_contains_eye(const Triangle& triangle) {
-  const EdgeFunction &e0 = triangle.edge(0), &e1 = triangle.edge(1), &e2 = triangle.edge(2);
-  const double products[3][3] = {{e0.a, e1.a, e2.a}, {e0.b, e1.b, e2.b}, {e0.c, e1.c, e2.c}};
-  for (const auto& l : products) {
-    const auto [low, high] = std::minmax({l[0], l[1], l[2]});  // their signs are exact
-    if (low != 0 || high != 0) return low >= 0 || high <= 0;
-  }
-  const Vertex &v0 = triangle.vertex(0), &v1 = triangle.vertex(1), &v2 = triangle.vertex(2);
-  const auto one_sign = [](float a, float b, float c) {
-    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
-  };
-  return !one_sign(v0.x, v1.x, v2.x) && !one_sign(v0.y, v1.y, v2.y) && !one_sign(v0.w, v1.w, v2.w);
-}
-
 // k for t = (numerator / denominator - offset 2^-(bits + 4)) 2^bits, by its floor and by where t lies above it.
 double round_to_integer(double floor_of_t, int above_floor, int above_half, GridRounding rounding) {
   const double up = floor_of_t + 1;
@@ -172,7 +152,7 @@ double round_to_integer(double floor_of_t, int above_floor, int above_half, Grid
 // The grid position of a coordinate numerator / denominator, which lies in [-g, g], in units of 2^-(bits + 4) pixels;
 // `offset` is in these units.
 std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator, int offset, const Grid& grid,
-                  Statistics& statistics) {
+                  Rungs* rungs) {
   const double scale = 1 << grid.bits;
   const auto compare = [&](double twice) {  // the sign of t - twice / 2; all factors are exact
     Expansion<32> rest;
@@ -187,9 +167,9 @@ std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator
   const double fraction = estimate - floor_of_t;  // exact
   int above_floor = 1, above_half = fraction > 0.5 ? 1 : -1;
   if (fraction > error && fraction < 1 - error && std::fabs(fraction - 0.5) > error) {
-    ++statistics.values_by_filter;
+    count(rungs, &Rungs::values_by_filter);
   } else {
-    ++statistics.values_by_expansion;
+    count(rungs, &Rungs::values_by_expansion);
     if (compare(2 * floor_of_t) < 0) {
       floor_of_t -= 1;
     } else if (compare(2 * floor_of_t + 2) >= 0) {
@@ -221,21 +201,38 @@ void widen(const Expansion<kZ>& z, const Expansion<kW>& w, DepthRange* range) {
 
 }  // namespace
 
-double snapped_position(float c, float w, int offset, const Grid& grid, Statistics& statistics) {
-  Expansion<8> numerator, denominator;
-  numerator.add(c), denominator.add(w);
-  return static_cast<double>(snap(numerator, denominator, offset, grid, statistics)) / (16 << grid.bits);
+// If a product m_j x m_k is not 0, the three are multiples of one normal, and the weights l with l_0 m_0 + l_1 m_1 +
+// l_2 m_2 = 0 are those multiples, up to a factor: the signs of any component of the products that is not 0 throughout
+// tell. Else the three vectors are multiples of one direction (or 0), and the hull misses 0 exactly if they are
+// positive multiples of one of them: if a coordinate has one sign, other than 0, in all three.
+bool hull_contains_eye(const Triangle& triangle) {
+  const EdgeFunction &e0 = triangle.edge(0), &e1 = triangle.edge(1), &e2 = triangle.edge(2);
+  const double products[3][3] = {{e0.a, e1.a, e2.a}, {e0.b, e1.b, e2.b}, {e0.c, e1.c, e2.c}};
+  for (const auto& l : products) {
+    const auto [low, high] = std::minmax({l[0], l[1], l[2]});  // their signs are exact
+    if (low != 0 || high != 0) return low >= 0 || high <= 0;
+  }
+  const Vertex &v0 = triangle.vertex(0), &v1 = triangle.vertex(1), &v2 = triangle.vertex(2);
+  const auto one_sign = [](float a, float b, float c) {
+    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+  };
+  return !one_sign(v0.x, v1.x, v2.x) && !one_sign(v0.y, v1.y, v2.y) && !one_sign(v0.w, v1.w, v2.w);
 }
 
-bool SnappedTriangle::set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid,
-                             Statistics& statistics) {
+double snapped_position(float c, float w, int offset, const Grid& grid, Rungs* rungs) {
+  Expansion<8> numerator, denominator;
+  numerator.add(c), denominator.add(w);
+  return static_cast<double>(snap(numerator, denominator, offset, grid, rungs)) / (16 << grid.bits);
+}
+
+bool SnappedTriangle::set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs) {
   depth_range_known_ = false;
-  if (!triangle_.set_up(v0, v1, v2, statistics) && hull_contains_eye(triangle_)) return false;
+  if (!triangle_.set_up(v0, v1, v2, rungs) && hull_contains_eye(triangle_)) return false;
   clip_to_guard_band(triangle_, &polygon_);
   for (int n = 0; n < polygon_.corners; ++n) {
     const GuardCorner& corner = polygon_.corner[n];
-    point_[n] = {snap(corner.x, corner.w, grid.offset_x, grid, statistics),
-                 snap(corner.y, corner.w, grid.offset_y, grid, statistics)};
+    point_[n] = {snap(corner.x, corner.w, grid.offset_x, grid, rungs),
+                 snap(corner.y, corner.w, grid.offset_y, grid, rungs)};
   }
   units_per_pixel_ = 1 << (grid.bits + 4);
   return true;
@@ -273,7 +270,7 @@ int SnappedTriangle::winding(const Point* corner, int corners, SamplePosition p,
   return sum;
 }
 
-bool SnappedTriangle::depth(SamplePosition p, DepthMode mode, float* stored, Statistics& statistics) {
+bool SnappedTriangle::depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs) {
   know_depth_range();
   const DepthRange& range = depth_range_;
   const bool flat = triangle_.determinant() == 0;
@@ -281,11 +278,11 @@ bool SnappedTriangle::depth(SamplePosition p, DepthMode mode, float* stored, Sta
     // z clamped to [low, high] is below 0 if high is, or if low and z are; and so for 1.
     if (range.high_below_zero || range.low_above_one) return false;
     if (flat && range.low_below_zero) return false;
-    if (!flat && range.low_below_zero && triangle_.compare_depth(p, 0, statistics) < 0) return false;
-    if (!flat && range.high_above_one && triangle_.compare_depth(p, 1, statistics) > 0) return false;
+    if (!flat && range.low_below_zero && triangle_.compare_depth(p, 0, rungs) < 0) return false;
+    if (!flat && range.high_above_one && triangle_.compare_depth(p, 1, rungs) > 0) return false;
   }
   *stored = range.low;
-  if (!flat) *stored = std::clamp(triangle_.rounded_depth(p, statistics), range.low, range.high);
+  if (!flat) *stored = std::clamp(triangle_.rounded_depth(p, rungs), range.low, range.high);
   if (mode == DepthMode::clamp) *stored = std::clamp(*stored, 0.0f, 1.0f);  // rounding is monotonic
   return true;
 }

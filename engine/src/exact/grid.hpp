@@ -20,7 +20,7 @@ inline double snap_error() {
 }
 
 // c / w, which lies in [-g, g], rounded to the grid as G1 says: a position in pixels. w > 0.
-double snapped_position(float c, float w, int offset, const Grid& grid, Statistics& statistics);
+double snapped_position(float c, float w, int offset, const Grid& grid, Rungs* rungs = nullptr);
 
 // A corner of the clipped triangle: homogeneous coordinates, exact, W > 0 once all four planes have been applied. Sums
 // of four products of a float32 or a 39-bit difference of floats by a float32, so at most eight terms.
@@ -43,10 +43,13 @@ struct DepthRange {
   bool low_below_zero, high_below_zero, low_above_one, high_above_one;
 };
 
+// Does the hull of a triangle's vertices contain the eye, where D = 0 (G1)?
+bool hull_contains_eye(const Triangle& triangle);
+
 class SnappedTriangle {
  public:
   // False if the triangle's hull contains the eye (G1). Vertices are finite (B1). The grid is valid.
-  bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Statistics& statistics);
+  bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs = nullptr);
 
   // The clipped polygon on the grid: positions in pixels, exact.
   int corners() const { return polygon_.corners; }
@@ -71,14 +74,14 @@ class SnappedTriangle {
   }
 
   // Depth at p as G2 and I4 have it; false if depth clipping removes the fragment (I5).
-  bool depth(SamplePosition p, DepthMode mode, float* stored, Statistics& statistics);
+  bool depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs = nullptr);
 
   // Does an E_i count at p (G2)? If not, or if D = 0, the values at p are those of vertex 0.
-  bool has_weights(SamplePosition p, Statistics& statistics) const { return triangle_.right_edges(p, statistics) != 0; }
+  bool has_weights(SamplePosition p, Rungs* rungs = nullptr) const { return triangle_.right_edges(p, rungs) != 0; }
 
   // An attribute at p as G2 and I4 have it, from its values at the three vertices.
-  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Statistics& statistics) {
-    return triangle_.attribute_of_right_edges(p, u, interpolation, statistics);
+  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs = nullptr) {
+    return triangle_.attribute_of_right_edges(p, u, interpolation, rungs);
   }
 
  private:

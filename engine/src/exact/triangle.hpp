@@ -40,10 +40,10 @@ class Triangle {
  public:
   using EdgeSet = unsigned;  // bit i: edge i
   // False if D = 0 (C1). Vertices are finite (B1).
-  bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, Statistics& statistics) {
+  bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, Rungs* rungs = nullptr) {
     vertex_[0] = v0, vertex_[1] = v1, vertex_[2] = v2;
     for (int i = 0; i < 3; ++i) edge_[i] = EdgeFunction(vertex_[(i + 1) % 3], vertex_[(i + 2) % 3]);
-    determinant_sign_ = determinant_sign(edge_[0], v0, statistics);
+    determinant_sign_ = determinant_sign(edge_[0], v0, rungs);
     determinant_known_ = false;
     return determinant_sign_ != 0;
   }
@@ -55,9 +55,9 @@ class Triangle {
   const EdgeFunction& edge(int i) const { return edge_[i]; }  // from vertex i + 1 to vertex i + 2, modulo 3
 
   // C2, C3 and C5.
-  bool covers(SamplePosition p, TieShift shift, Statistics& statistics) const {
+  bool covers(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const {
     for (const EdgeFunction& edge : edge_) {
-      int sign = edge.sign(p, statistics);
+      int sign = edge.sign(p, rungs);
       if (sign == 0) sign = tie_sign(edge, shift, determinant_sign_);
       if (sign != determinant_sign_) return false;
     }
@@ -65,35 +65,35 @@ class Triangle {
   }
 
   // Depth at p as I4 stores it; false if depth clipping removes the fragment (I5).
-  bool depth(SamplePosition p, DepthMode mode, float* stored, Statistics& statistics) {
+  bool depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs = nullptr) {
     const Approximation q = approximate_depth(p);
     if (mode == DepthMode::clip) {
       const double low = q.value - q.error, high = q.value + q.error;
       if (high < 0 || low > 1) {
-        ++statistics.values_by_filter;
+        count(rungs, &Rungs::values_by_filter);
         return false;
       }
-      if (!(low > 0 && high < 1) && !inside_unit_range(exact_depth_numerator(p), statistics)) return false;
+      if (!(low > 0 && high < 1) && !inside_unit_range(exact_depth_numerator(p), rungs)) return false;
     }
-    *stored = rounded_depth(p, q, statistics);
+    *stored = rounded_depth(p, q, rungs);
     if (mode == DepthMode::clamp) *stored = *stored < 0 ? 0.0f : *stored > 1 ? 1.0f : *stored;  // rounding is monotonic
     return true;
   }
 
   // The depth at p (I1), whether or not the triangle covers p, as I4 rounds it. D is not 0.
-  float rounded_depth(SamplePosition p, Statistics& statistics) {
-    return rounded_depth(p, approximate_depth(p), statistics);
+  float rounded_depth(SamplePosition p, Rungs* rungs = nullptr) {
+    return rounded_depth(p, approximate_depth(p), rungs);
   }
 
   // The sign of z(p) - bound, exactly, for a bound of 0 or 1. D is not 0.
-  int compare_depth(SamplePosition p, double bound, Statistics& statistics) {
+  int compare_depth(SamplePosition p, double bound, Rungs* rungs = nullptr) {
     const Approximation q = approximate_depth(p);
     const bool above = q.value - q.error > bound, below = q.value + q.error < bound;  // rounding is monotonic
     if (above || below) {
-      ++statistics.values_by_filter;
+      count(rungs, &Rungs::values_by_filter);
       return above ? 1 : -1;
     }
-    ++statistics.values_by_expansion;
+    count(rungs, &Rungs::values_by_expansion);
     return minus_multiple_of_determinant(exact_depth_numerator(p), bound).sign() * determinant_sign_;
   }
 
@@ -120,10 +120,10 @@ class Triangle {
 
   // An attribute at p as I4 stores it, from its values at the three vertices. For perspective, the sum of the E_i is
   // not 0 at p: it is not at a covered sample, nor where plane_in_front().
-  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Statistics& statistics) {
+  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs = nullptr) {
     if (interpolation == Interpolation::flat) return value_of_vertex_0(u);
     if (interpolation == Interpolation::perspective) {
-      return weighted_mean({u[0], u[1], u[2]}, {1, 1, 1}, p, kAllEdges, statistics);
+      return weighted_mean({u[0], u[1], u[2]}, {1, 1, 1}, p, kAllEdges, rungs);
     }
     const double w[3] = {static_cast<double>(u[0]) * vertex_[0].w, static_cast<double>(u[1]) * vertex_[1].w,
                          static_cast<double>(u[2]) * vertex_[2].w};  // 48 bits, exact
@@ -131,29 +131,29 @@ class Triangle {
     evaluate_edges(p, e);
     const Approximation q = quotient(weighted_sum(w, e), approximate_determinant());
     return rounded(
-        q, [&] { return round_quotient(exact_weighted_sum(w, p), determinant_); }, statistics);
+        q, [&] { return round_quotient(exact_weighted_sum(w, p), determinant_); }, rungs);
   }
 
   // The edges whose E_i counts at p under Grid (G2): it has the sign of D and is not 0. None if D = 0.
-  EdgeSet right_edges(SamplePosition p, Statistics& statistics) const {
+  EdgeSet right_edges(SamplePosition p, Rungs* rungs = nullptr) const {
     EdgeSet set = 0;
     for (int i = 0; i < 3; ++i) {
-      if (determinant_sign_ != 0 && edge_[i].sign(p, statistics) == determinant_sign_) set |= 1u << i;
+      if (determinant_sign_ != 0 && edge_[i].sign(p, rungs) == determinant_sign_) set |= 1u << i;
     }
     return set;
   }
 
   // An attribute at p as G2 has it: from the E_i that count, and the value of vertex 0 where their sum is 0.
   float attribute_of_right_edges(SamplePosition p, const float (&u)[3], Interpolation interpolation,
-                                 Statistics& statistics) const {
-    const EdgeSet set = right_edges(p, statistics);
+                                 Rungs* rungs = nullptr) const {
+    const EdgeSet set = right_edges(p, rungs);
     if (interpolation == Interpolation::flat || set == 0) return value_of_vertex_0(u);
     if (interpolation == Interpolation::perspective) {
-      return weighted_mean({u[0], u[1], u[2]}, {1, 1, 1}, p, set, statistics);
+      return weighted_mean({u[0], u[1], u[2]}, {1, 1, 1}, p, set, rungs);
     }
     const double w[3] = {vertex_[0].w, vertex_[1].w, vertex_[2].w};
     if (weighted_sum_is_zero(w, p, set)) return value_of_vertex_0(u);
-    return weighted_mean({u[0] * w[0], u[1] * w[1], u[2] * w[2]}, w, p, set, statistics);  // 48 bits, exact
+    return weighted_mean({u[0] * w[0], u[1] * w[1], u[2] * w[2]}, w, p, set, rungs);  // 48 bits, exact
   }
 
  private:
@@ -188,14 +188,14 @@ class Triangle {
 
   // The sum of numerator[i] E_i over that of denominator[i] E_i, as I4 stores it. The latter is not 0.
   float weighted_mean(const double (&numerator)[3], const double (&denominator)[3], SamplePosition p, EdgeSet set,
-                      Statistics& statistics) const {
+                      Rungs* rungs = nullptr) const {
     Approximation e[3];
     evaluate_edges(p, e, set);
     const Approximation q = quotient(weighted_sum(numerator, e), weighted_sum(denominator, e));
     const auto exact = [&] {
       return round_quotient(exact_weighted_sum(numerator, p, set), exact_weighted_sum(denominator, p, set));
     };
-    return rounded(q, exact, statistics);
+    return rounded(q, exact, rungs);
   }
 
   Approximation approximate_determinant() {
@@ -209,9 +209,9 @@ class Triangle {
     return quotient(weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, e), approximate_determinant());
   }
 
-  float rounded_depth(SamplePosition p, Approximation q, Statistics& statistics) {
+  float rounded_depth(SamplePosition p, Approximation q, Rungs* rungs = nullptr) {
     return rounded(
-        q, [&] { return round_quotient(exact_depth_numerator(p), exact_determinant_value()); }, statistics);
+        q, [&] { return round_quotient(exact_depth_numerator(p), exact_determinant_value()); }, rungs);
   }
 
   // D itself is needed for values only; once per triangle.
@@ -223,8 +223,8 @@ class Triangle {
   }
 
   // 0 <= numerator / D <= 1, exactly (I5).
-  bool inside_unit_range(const Expansion<60>& numerator, Statistics& statistics) const {
-    ++statistics.values_by_expansion;
+  bool inside_unit_range(const Expansion<60>& numerator, Rungs* rungs = nullptr) const {
+    count(rungs, &Rungs::values_by_expansion);
     if (numerator.sign() * determinant_sign_ < 0) return false;
     return minus_multiple_of_determinant(numerator, 1).sign() * determinant_sign_ <= 0;
   }
@@ -239,13 +239,13 @@ class Triangle {
 
   // The float32 of I4: by the filter if it can tell, else by `exact`.
   template <typename Exact>
-  static float rounded(Approximation q, Exact exact, Statistics& statistics) {
+  static float rounded(Approximation q, Exact exact, Rungs* rungs = nullptr) {
     float result;
     if (round_interval(q.value - q.error, q.value + q.error, &result)) {
-      ++statistics.values_by_filter;
+      count(rungs, &Rungs::values_by_filter);
       return result;
     }
-    ++statistics.values_by_expansion;
+    count(rungs, &Rungs::values_by_expansion);
     return exact();
   }
 

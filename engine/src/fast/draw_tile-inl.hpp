@@ -675,17 +675,17 @@ class TileDrawer : public Fragments {
 };
 
 void DrawTiles(const FrameJob& frame, std::span<const Piece> pieces, const TileRow& tiles, Scratch& scratch,
-               Statistics& statistics) {
+               Rungs& rungs) {
   std::uint32_t* const list = scratch.pairs;
   if (tiles.depth == nullptr) {
     if (tiles.count != nullptr || frame.visitor != nullptr)
-      TileDrawer<false, false, true>(frame, tiles, statistics).Run(pieces, list);
+      TileDrawer<false, false, true>(frame, tiles, rungs).Run(pieces, list);
   } else if (tiles.count != nullptr) {
-    TileDrawer<true, true, true>(frame, tiles, statistics).Run(pieces, list);
+    TileDrawer<true, true, true>(frame, tiles, rungs).Run(pieces, list);
   } else if (tiles.winner != nullptr) {
-    TileDrawer<true, true, false>(frame, tiles, statistics).Run(pieces, list);
+    TileDrawer<true, true, false>(frame, tiles, rungs).Run(pieces, list);
   } else {
-    TileDrawer<true, false, false>(frame, tiles, statistics).Run(pieces, list);
+    TileDrawer<true, false, false>(frame, tiles, rungs).Run(pieces, list);
   }
 }
 

@@ -147,15 +147,6 @@ HWY_INLINE void TouchedRange(const float (&c)[3][kBatch], const float (&w)[3][kB
              begin, end, first, last);
 }
 
-// Vertex k of a triangle of the draw.
-inline const Vertex& VertexOf(const Draw& draw, std::uint32_t triangle, std::size_t k) {
-  return draw.vertices[draw.indices[std::size_t{3} * triangle + k]];
-}
-
-inline bool AllFinite(const Vertex& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-}
-
 // Are the attributes of all vertices of a batch finite? As integers without their signs, infinity and NaN are larger
 // than all other floats.
 HWY_INLINE bool AttributesFinite(const Draw& draw, const std::uint32_t* indices) {
@@ -164,7 +155,7 @@ HWY_INLINE bool AttributesFinite(const Draw& draw, const std::uint32_t* indices)
   auto largest = hn::Zero(d);
   std::uint32_t largest_of_fewer = 0;
   for (const AttributeArray& attribute : draw.attributes) {
-    const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
+    const std::size_t stride = stride_of(attribute);
     for (std::size_t n = 0; n < 3 * kBatch; ++n) {
       const float* const values = &attribute.values[indices[n] * stride];
       if (attribute.components == 4) {
@@ -184,20 +175,6 @@ HWY_INLINE bool AttributesFinite(const Draw& draw, const std::uint32_t* indices)
   return hn::AllTrue(d, hn::Lt(largest, hn::Set(d, kInfinity))) && largest_of_fewer < kInfinity;
 }
 
-// The same of one triangle.
-inline bool AttributesFinite(const Draw& draw, std::uint32_t triangle) {
-  for (const AttributeArray& attribute : draw.attributes) {
-    const std::size_t stride = attribute.stride != 0 ? attribute.stride : attribute.components;
-    for (std::size_t k = 0; k < 3; ++k) {
-      const float* values = &attribute.values[draw.indices[std::size_t{3} * triangle + k] * stride];
-      for (std::uint32_t c = 0; c < attribute.components; ++c) {
-        if (!std::isfinite(values[c])) return false;
-      }
-    }
-  }
-  return true;
-}
-
 // A power of two that brings max(|a|, |b|) into [2^exponent, 2^(exponent + 1)). Where both are 0 (a constant edge, c !=
 // 0), one that makes c huge. exponent: added to 2046, in the exponent's place.
 HWY_INLINE Double Scale(Double a, Double b, hn::Vec<hn::RebindToUnsigned<DoubleTag>> exponent) {
@@ -215,14 +192,13 @@ HWY_INLINE hn::Mask<DoubleTag> DifferenceIsExact(Double p, Double q, Double r) {
 
 // The signs of D in the uncertain lanes, exactly; `degenerate` gets the lanes where it is 0.
 HWY_NOINLINE hn::Mask<DoubleTag> ExactSigns(const Draw& draw, const std::uint32_t* positions, std::uint32_t uncertain,
-                                            hn::Mask<DoubleTag> negative, std::uint32_t& degenerate,
-                                            Statistics& statistics) {
+                                            hn::Mask<DoubleTag> negative, std::uint32_t& degenerate, Rungs& rungs) {
   const DoubleTag dd;
   alignas(64) double signs[kBatch];
   hn::Store(hn::IfThenElse(negative, hn::Set(dd, -1.0), hn::Set(dd, 1.0)), dd, signs);
   for (; uncertain != 0; uncertain &= uncertain - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(uncertain));
-    const int sign = orientation(draw, positions[lane], statistics);
+    const int sign = orientation(draw, positions[lane], &rungs);
     signs[lane] = sign < 0 ? -1 : 1;
     if (sign == 0) degenerate |= 1u << lane;
   }

@@ -21,8 +21,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 // The tile at hand, and the draw.
 class Fragments {
  public:
-  Fragments(const FrameJob& frame, const TileRow& tiles, Statistics& statistics)
-      : frame_(frame), tiles_(tiles), statistics_(statistics) {
+  Fragments(const FrameJob& frame, const TileRow& tiles, Rungs& rungs) : frame_(frame), tiles_(tiles), rungs_(rungs) {
     near_ = frame.greater() ? -1.0f : 0.0f, far_ = frame.greater() ? 0.0f : 1.0f;
   }
 
@@ -52,13 +51,12 @@ class Fragments {
   // Does the triangle cover the sample at an offset of the tile? Exactly.
   HWY_NOINLINE bool Covers(const Record& r, std::size_t offset) {
     const int x = tile_x_ + column_of(offset), y = tile_y_ + row_of(offset);
-    const PixelBox& region = job_->region;
-    if (x < region.x0 || x >= region.x1 || y < region.y0 || y >= region.y1) return false;
+    if (!job_->region.contains(x, y)) return false;
     const Draw& draw = *job_->draw;
     exact_.use(draw, r.position);
-    if (draw.conservative != Conservative::none) return exact_.counts_square(x, y, statistics_);
+    if (draw.conservative != Conservative::none) return exact_.draws_square(x, y, &rungs_);
     if (r.fan_triangle() != 0) return exact_.snapped().fan_covers(r.fan_triangle(), Position(x, y), job_->shift);
-    return exact_.covers(Position(x, y), job_->shift, statistics_);
+    return exact_.draws(Position(x, y), job_->shift, &rungs_);
   }
 
   // Draws a covered sample. `counted`: it is in the counts already.
@@ -66,7 +64,7 @@ class Fragments {
     float z = 0;
     if (depth_ != nullptr || r.has(Record::kClip | Record::kByWinding)) {
       exact_.use(*job_->draw, r.position);
-      if (!exact_.depth(Position(tile_x_ + column_of(offset), tile_y_ + row_of(offset)), &z, statistics_)) return;
+      if (!exact_.depth(Position(tile_x_ + column_of(offset), tile_y_ + row_of(offset)), &z, &rungs_)) return;
       if (job_->greater) z = 0.0f - z;
     }
     if (!counted) Count(1, offset);
@@ -91,8 +89,8 @@ class Fragments {
     for (int y = std::max(r.y0 - tile_y_, 0); y <= y1; ++y) {
       for (int x = std::max(r.x0 - tile_x_, 0); x <= x1; ++x) {
         exact_.use(*job_->draw, r.position);
-        const int facing = exact_.snapped().winding(Position(tile_x_ + x, tile_y_ + y), job_->shift);
-        if (facing != 0 && !Culls(facing)) ExactFragment(r, offset_in_tile(x, y), false);
+        if (exact_.draws(Position(tile_x_ + x, tile_y_ + y), job_->shift))
+          ExactFragment(r, offset_in_tile(x, y), false);
       }
     }
   }
@@ -176,7 +174,7 @@ class Fragments {
 
   const FrameJob& frame_;
   const TileRow& tiles_;
-  Statistics& statistics_;
+  Rungs& rungs_;
   const DrawJob* job_ = nullptr;
   int tile_x_ = 0, tile_y_ = 0;  // the tile's first sample
   float* depth_ = nullptr;
@@ -188,10 +186,6 @@ class Fragments {
 
  private:
   SamplePosition Position(int x, int y) const { return {x + job_->sample.x, y + job_->sample.y}; }
-  bool Culls(int facing) const {
-    const bool front = (facing > 0) == (job_->draw->front_face == FrontFace::clockwise);
-    return job_->draw->cull == (front ? Cull::front : Cull::back);
-  }
 
   // The empty image, in the tile at hand.
   HWY_NOINLINE void Open() {

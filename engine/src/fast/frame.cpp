@@ -17,20 +17,16 @@ namespace {
 // Pieces are no smaller, where threads share what few triangles there are.
 constexpr std::uint32_t kSmallestPiece = 256;
 
-void add_triangles(Statistics& sum, const Statistics& part) {
-  sum.triangles += part.triangles;
-  sum.dropped += part.dropped;
-  sum.degenerate += part.degenerate;
-  sum.culled += part.culled;
+// What a part of the work found out. Triangles are set up anew for each sample; they are counted with the first.
+void add(Diagnostics& sum, const Diagnostics& part) {
   sum.outside += part.outside;
-  sum.rasterized += part.rasterized;
   sum.small += part.small;
   sum.medium += part.medium;
   sum.large += part.large;
   sum.clipped += part.clipped;
   sum.skipped_draws += part.skipped_draws;
 }
-void add_rungs(Statistics& sum, const Statistics& part) {
+void add(Rungs& sum, const Rungs& part) {
   sum.signs_by_filter += part.signs_by_filter;
   sum.signs_by_residual += part.signs_by_residual;
   sum.signs_by_expansion += part.signs_by_expansion;
@@ -47,13 +43,11 @@ class Frame {
         threads_(options.threads),
         team_(options.threads, options.executor),
         borrowed_(options.context) {
-    for (const AttributeTarget& attribute : target.attributes) shading_ |= !attribute.values.empty();
-    shading_ |= !target.barycentrics.empty();
-    visibility_ = shading_ || !target.index.empty();
-    depth_ = visibility_ || !target.depth.empty();
+    const Wanted wanted = wanted_outputs(target);
+    shading_ = wanted.shading, visibility_ = wanted.visibility, depth_ = wanted.depth;
     for (const Draw& draw : draws) {
       if (!draw.depth_write && depth_) visibility_ = true;  // depth alone does not say what is empty
-      triangles_ += draw.indices.size() / 3;
+      triangles_ += triangles_of(draw);
     }
     counts_ = !target.count.empty() || visitor != nullptr;
     if (depth_ && counts_) visibility_ = true;
@@ -65,20 +59,19 @@ class Frame {
     strip_ = std::max(1, frame_.grid.columns / strips);
   }
 
-  Status render(Statistics& statistics) {
+  Status render(Diagnostics& diagnostics) {
     if (!kernels_.is_exact()) return Status::bad_build;
     if (!allocate()) return Status::out_of_memory;
     for (int n = 0; n < target_.samples; ++n) {
-      const SampleLocation location = sample_location(target_.samples, n);
       frame_.sample_number = static_cast<std::size_t>(n);
-      sample_ = {location.x / 16.0, location.y / 16.0};
+      sample_ = sample_offset(target_.samples, n);
       for (std::size_t draw = 0; draw < draws_.size(); ++draw) jobs_[draw] = job_of(draw);
       frame_.draws = {jobs_.get(), draws_.size()};
       if (!render_sample()) return Status::out_of_memory;
-      for (std::size_t i = 0; n == 0 && i < parts(); ++i) add_triangles(statistics, statistics_[i]);
+      for (std::size_t i = 0; n == 0 && i < parts(); ++i) add(diagnostics, diagnostics_[i]);
     }
-    for (std::size_t i = 0; i < parts(); ++i) add_rungs(statistics, statistics_[i]);
-    statistics.path = kernels_.name;
+    for (std::size_t i = 0; i < parts(); ++i) add(diagnostics.rungs, diagnostics_[i].rungs);
+    diagnostics.path = kernels_.name;
     return Status::ok;
   }
 
@@ -95,12 +88,12 @@ class Frame {
           (std::max(share, least) + kBatch - 1) / kBatch * kBatch, kSmallestPiece, kPieceRecords));
     }
     std::size_t pieces = 0;
-    for (const Draw& draw : draws_) pieces += (draw.indices.size() / 3 + piece_triangles_ - 1) / piece_triangles_;
+    for (const Draw& draw : draws_) pieces += (triangles_of(draw) + piece_triangles_ - 1) / piece_triangles_;
     pieces = std::min(pieces, kPieces);
     const std::size_t begins = frame_.grid.tiles() + 2;
     jobs_.reset(new (std::nothrow) DrawJob[draws_.size()]);
-    statistics_.reset(new (std::nothrow) Statistics[parts()]());
-    const bool ok = memory_ != nullptr && jobs_ != nullptr && statistics_ != nullptr &&
+    diagnostics_.reset(new (std::nothrow) Diagnostics[parts()]());
+    const bool ok = memory_ != nullptr && jobs_ != nullptr && diagnostics_ != nullptr &&
                     memory_->records.reserve(pieces * kPieceRecords) && memory_->begin.reserve(pieces * begins) &&
                     memory_->items.reserve(pieces * kPiecePairs) && memory_->scratch.reserve(parts());
     for (std::size_t i = 0; ok && i < pieces; ++i) {
@@ -112,17 +105,11 @@ class Frame {
   }
 
   DrawJob job_of(std::size_t draw) const {
-    PixelBox region{0, 0, target_.width, target_.height};
-    if (const auto& scissor = draws_[draw].scissor) {
-      region = {std::max(region.x0, scissor->x0), std::max(region.y0, scissor->y0), std::min(region.x1, scissor->x1),
-                std::min(region.y1, scissor->y1)};
-      if (region.empty()) region = {};
-    }
     const std::uint32_t ordinal =
-        draw == 0 ? 0 : jobs_[draw - 1].first_ordinal + static_cast<std::uint32_t>(draws_[draw - 1].indices.size() / 3);
+        draw == 0 ? 0 : jobs_[draw - 1].first_ordinal + static_cast<std::uint32_t>(triangles_of(draws_[draw - 1]));
     return {&draws_[draw],
             ordinal,
-            region,
+            region_of(target_, draws_[draw]),
             sample_,
             tie_shift(draws_[draw].fill_rule),
             depth_,
@@ -159,12 +146,11 @@ class Frame {
   std::size_t take_pieces() {
     std::size_t size = 0;
     for (; next_draw_ < draws_.size() && size < kPieces;) {
-      const auto triangles = static_cast<std::uint32_t>(draws_[next_draw_].indices.size() / 3);
+      const auto triangles = static_cast<std::uint32_t>(triangles_of(draws_[next_draw_]));
       if (next_triangle_ == 0 && draws_[next_draw_].culling_box) {
         if (depth_ && !counts_ && size != 0) break;  // what is hidden is known when all before is drawn
         if (skips(jobs_[next_draw_])) {
-          statistics_[0].triangles += triangles, statistics_[0].outside += triangles;
-          ++statistics_[0].skipped_draws, ++next_draw_;
+          ++diagnostics_[0].skipped_draws, ++next_draw_;
           continue;
         }
       }
@@ -193,7 +179,7 @@ class Frame {
     run(end - first, [&](std::size_t i, std::size_t part) {
       if (is_set_up_[first + i]) return;
       is_set_up_[first + i] = true;
-      kernels_.set_up(frame_.grid, pieces_[first + i], memory_->scratch[part], statistics_[part]);
+      kernels_.set_up(frame_.grid, pieces_[first + i], memory_->scratch[part], diagnostics_[part]);
     });
   }
 
@@ -209,9 +195,9 @@ class Frame {
       const TileRow tiles =
           once ? tiles_at(part * static_cast<std::size_t>(strip_), row, begin, end) : tiles_of(row, begin, end);
       if (!cleared_) std::fill_n(tiles.opened, end - begin, std::uint8_t{0});
-      kernels_.draw_tiles(frame_, pieces, tiles, memory_->scratch[part], statistics_[part]);
+      kernels_.draw_tiles(frame_, pieces, tiles, memory_->scratch[part], diagnostics_[part].rungs);
       if (!stored_) return;
-      if (shading_) kernels_.shade(frame_, tiles, statistics_[part]);
+      if (shading_) kernels_.shade(frame_, tiles, diagnostics_[part].rungs);
       Store(frame_, tiles).run();
     });
     cleared_ = true;
@@ -273,7 +259,7 @@ class Frame {
   const BorrowedMemory borrowed_;
   Memory* const memory_ = borrowed_.get();
   std::unique_ptr<DrawJob[]> jobs_;
-  std::unique_ptr<Statistics[]> statistics_;  // of each part
+  std::unique_ptr<Diagnostics[]> diagnostics_;  // of each part
 };
 
 }  // namespace
@@ -281,20 +267,20 @@ class Frame {
 bool supports(std::span<const Draw> draws) {
   std::uint64_t triangles = 0;
   for (const Draw& draw : draws) {
-    triangles += draw.indices.size() / 3;
+    triangles += triangles_of(draw);
     if (triangles >= kNoTriangle) return false;
   }
   return true;
 }
 
 Status render(const Target& target, std::span<const Draw> draws, const Options& options,
-              Statistics& statistics) noexcept {
-  return Frame(target, draws, nullptr, options).render(statistics);
+              Diagnostics& diagnostics) noexcept {
+  return Frame(target, draws, nullptr, options).render(diagnostics);
 }
 
 Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
-                      const Options& options, Statistics& statistics) noexcept {
-  return Frame(target, draws, &visitor, options).render(statistics);
+                      const Options& options, Diagnostics& diagnostics) noexcept {
+  return Frame(target, draws, &visitor, options).render(diagnostics);
 }
 
 }  // namespace surefill::fast

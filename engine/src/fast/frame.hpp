@@ -6,6 +6,7 @@
 
 #include <span>
 
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::fast {
@@ -17,11 +18,11 @@ bool supports(std::span<const Draw> draws);
 // asked for, with the target's sides rounded up to multiples of 64; 16 MiB for the triangles of a chunk and their
 // lists; 0.6 MiB a thread. Where all triangles are one chunk, a row of tiles a thread takes the place of the pixels.
 Status render(const Target& target, std::span<const Draw> draws, const Options& options,
-              Statistics& statistics) noexcept;
+              Diagnostics& diagnostics) noexcept;
 
 // As reference::visit_coverage.
 Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
-                      const Options& options, Statistics& statistics) noexcept;
+                      const Options& options, Diagnostics& diagnostics) noexcept;
 
 }  // namespace surefill::fast
 

@@ -34,7 +34,7 @@ HWY_INLINE Double SnapLanes(Double c, Double w, int offset, const Grid& grid, hn
 
 // The corners of a batch on the grid. Returns the lanes that have none, because a vertex is not in front of the eye and
 // within the guard band (or no number).
-HWY_NOINLINE std::uint32_t Snap(const Grid& grid, Batch& batch, Statistics& statistics) {
+HWY_NOINLINE std::uint32_t Snap(const Grid& grid, Batch& batch, Rungs& rungs) {
   const DoubleTag dd;
   const FloatTag df;
   std::uint32_t others = 0;
@@ -61,8 +61,8 @@ HWY_NOINLINE std::uint32_t Snap(const Grid& grid, Batch& batch, Statistics& stat
       for (std::uint32_t rest = Bits(dd, hn::And(unsure, whole)); rest != 0; rest &= rest - 1) {
         const auto l = lane + static_cast<std::uint32_t>(std::countr_zero(rest));
         if ((batch.finite >> l & 1) == 0) continue;
-        batch.corner_x[k][l] = snapped_position(batch.x[k][l], batch.w[k][l], grid.offset_x, grid, statistics);
-        batch.corner_y[k][l] = snapped_position(batch.y[k][l], batch.w[k][l], grid.offset_y, grid, statistics);
+        batch.corner_x[k][l] = snapped_position(batch.x[k][l], batch.w[k][l], grid.offset_x, grid, &rungs);
+        batch.corner_y[k][l] = snapped_position(batch.y[k][l], batch.w[k][l], grid.offset_y, grid, &rungs);
       }
     }
   }
@@ -164,12 +164,12 @@ HWY_INLINE void SnappedDepthRange(const DrawJob& job, std::uint32_t lane, Batch&
 
 // Which of the clipped triangles reach a sample of the region: these stay in batch.clipped. `degenerate` gets those
 // that hold the eye.
-HWY_NOINLINE void FindClipped(const DrawJob& job, Batch& batch, Statistics& statistics) {
+HWY_NOINLINE void FindClipped(const DrawJob& job, Batch& batch, Rungs& rungs) {
   SnappedTriangle snapped;
   for (std::uint32_t rest = batch.clipped; rest != 0; rest &= rest - 1) {
     const std::uint32_t lane = static_cast<std::uint32_t>(std::countr_zero(rest)), bit = rest & (0 - rest);
-    const auto vertex = [&](std::size_t k) { return VertexOf(*job.draw, batch.position[lane], k); };
-    const bool some = snapped.set_up(vertex(0), vertex(1), vertex(2), *job.draw->grid, statistics);
+    const auto vertex = [&](std::size_t k) { return vertex_of(*job.draw, batch.position[lane], k); };
+    const bool some = snapped.set_up(vertex(0), vertex(1), vertex(2), *job.draw->grid, &rungs);
     if (!some) batch.degenerate |= bit;
     const double least = std::min(job.sample.x, job.sample.y), most = std::max(job.sample.x, job.sample.y);
     if (!some || job.region.empty() || snapped.box(job.region, least, most).empty()) batch.clipped &= ~bit;

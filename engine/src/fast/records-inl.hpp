@@ -179,14 +179,13 @@ class PieceWriter {
 };
 
 // Adds the fan of a clipped triangle or, where that turns both ways or takes too much room, the triangle itself.
-HWY_NOINLINE bool AddClipped(const DrawJob& job, std::uint32_t position, PieceWriter& writer) {
+HWY_NOINLINE bool AddClipped(const DrawJob& job, std::uint32_t position, PieceWriter& writer, Rungs& rungs) {
   SnappedTriangle snapped;
-  Statistics unused;
-  const auto vertex = [&](std::size_t k) { return VertexOf(*job.draw, position, k); };
-  snapped.set_up(vertex(0), vertex(1), vertex(2), *job.draw->grid, unused);
+  const auto vertex = [&](std::size_t k) { return vertex_of(*job.draw, position, k); };
+  snapped.set_up(vertex(0), vertex(1), vertex(2), *job.draw->grid);
   Batch fan;
   bool turns;
-  std::uint32_t lanes = SetUpFan(job, position, snapped, fan, turns);
+  std::uint32_t lanes = SetUpFan(job, position, snapped, fan, turns, rungs);
   const auto before = writer.Now();
   bool fits = !turns;
   for (; fits && lanes != 0; lanes &= lanes - 1) {
@@ -201,47 +200,36 @@ HWY_NOINLINE bool AddClipped(const DrawJob& job, std::uint32_t position, PieceWr
 }
 
 // Counts lanes of a batch, by what becomes of them.
-HWY_INLINE void CountLanes(const DrawJob& job, const Batch& batch, std::uint32_t lanes, std::uint32_t drawn,
-                           Statistics& statistics) {
+HWY_INLINE void CountLanes(const Batch& batch, std::uint32_t lanes, std::uint32_t drawn, Diagnostics& diagnostics) {
   const auto ones = [lanes](std::uint32_t set) { return static_cast<std::uint64_t>(std::popcount(set & lanes)); };
-  // Under Grid, facing and emptiness are matters of the sample (G1).
-  const bool grid = job.draw->grid.has_value();
-  const std::uint32_t reached = batch.reached | batch.clipped;
-  const std::uint32_t degenerate = grid ? batch.degenerate & ~reached : batch.degenerate;
-  const std::uint32_t kept = grid ? reached : drawn;
-  statistics.triangles += ones(~0u);
-  statistics.dropped += ones(~batch.finite);
-  statistics.degenerate += ones(degenerate);
-  statistics.culled += ones(reached & ~degenerate & ~kept);
-  statistics.rasterized += ones(kept);
-  statistics.outside += ones(batch.finite & ~reached & ~degenerate);
-  statistics.small += ones(drawn & batch.small);
-  statistics.medium += ones(drawn & batch.medium & ~batch.small);
-  statistics.large += ones(drawn & ~batch.medium & ~batch.small);
-  statistics.clipped += ones(batch.clipped);
+  diagnostics.outside += ones(batch.finite & ~(batch.reached | batch.clipped));
+  diagnostics.small += ones(drawn & batch.small);
+  diagnostics.medium += ones(drawn & batch.medium & ~batch.small);
+  diagnostics.large += ones(drawn & ~batch.medium & ~batch.small);
+  diagnostics.clipped += ones(batch.clipped);
 }
 
 // Sets up the triangles of a piece, as far as its lists have room.
-void SetUp(const TileGrid& grid, Piece& piece, Scratch& scratch, Statistics& statistics) {
+void SetUp(const TileGrid& grid, Piece& piece, Scratch& scratch, Diagnostics& diagnostics) {
   const DrawJob& job = *piece.job;
   PieceWriter writer(grid, piece, scratch);
   Batch batch;
   for (bool fits = true; fits && piece.next < piece.end;) {
     const std::uint32_t first = piece.next, count = std::min(kBatch, piece.end - first);
-    const std::uint32_t drawn = SetUpBatch(job, first, count, batch, statistics);
-    if (HWY_UNLIKELY(batch.clipped != 0)) FindClipped(job, batch, statistics);
+    const std::uint32_t drawn = SetUpBatch(job, first, count, batch, diagnostics.rungs);
+    if (HWY_UNLIKELY(batch.clipped != 0)) FindClipped(job, batch, diagnostics.rungs);
     std::uint32_t done = count;
     for (std::uint32_t lanes = drawn | batch.clipped; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       const bool clipped = HWY_UNLIKELY((batch.clipped >> lane & 1) != 0);
       const auto before = writer.Now();
-      fits = clipped ? AddClipped(job, first + lane, writer) : writer.Add(batch, lane, 0);
+      fits = clipped ? AddClipped(job, first + lane, writer, diagnostics.rungs) : writer.Add(batch, lane, 0);
       if (fits) continue;
       writer.GoBack(before);
       done = lane;
       break;
     }
-    CountLanes(job, batch, (1u << done) - 1, drawn, statistics);
+    CountLanes(batch, (1u << done) - 1, drawn, diagnostics);
     piece.next += done;
   }
   writer.Finish();

@@ -266,7 +266,7 @@ HWY_INLINE void Promote(const Batch& batch, std::uint32_t lane, Double (&x)[3], 
 }
 
 // Edge functions and D of a group: their signs, their integers.
-HWY_NOINLINE void SetUpEdges(const DrawJob& job, Group& group, Batch& batch, Statistics& statistics) {
+HWY_NOINLINE void SetUpEdges(const DrawJob& job, Group& group, Batch& batch, Rungs& rungs) {
   const DoubleTag dd;
   const hn::RebindToUnsigned<DoubleTag> du;
   const std::uint32_t lane = group.lane;
@@ -288,7 +288,7 @@ HWY_NOINLINE void SetUpEdges(const DrawJob& job, Group& group, Batch& batch, Sta
   if (HWY_UNLIKELY(uncertain != 0)) {
     std::uint32_t flat = 0;
     is_negative = grid ? SnappedSigns(*job.draw->grid, batch, lane, uncertain, is_negative, flat)
-                       : ExactSigns(*job.draw, batch.position + lane, uncertain, is_negative, flat, statistics);
+                       : ExactSigns(*job.draw, batch.position + lane, uncertain, is_negative, flat, rungs);
     batch.degenerate |= flat << lane;
   }
   batch.negative |= Bits(dd, is_negative) << lane;
@@ -333,7 +333,7 @@ HWY_NOINLINE void SetUpDepth(const DrawJob& job, Group& group, bool of_fan, Batc
 }
 
 // Edges and depth of the lanes that reach a sample.
-HWY_NOINLINE void SetUpGroups(const DrawJob& job, bool of_fan, Batch& batch, Statistics& statistics) {
+HWY_NOINLINE void SetUpGroups(const DrawJob& job, bool of_fan, Batch& batch, Rungs& rungs) {
   const hn::CappedTag<float, kBatch> d;
   batch.small = batch.medium = batch.thin = batch.slow_depth = batch.clip = batch.integer = 0;
   batch.tie_lost[0] = batch.tie_lost[1] = batch.tie_lost[2] = batch.degenerate = batch.negative = 0;
@@ -355,7 +355,7 @@ HWY_NOINLINE void SetUpGroups(const DrawJob& job, bool of_fan, Batch& batch, Sta
   for (group.lane = 0; group.lane < kBatch; group.lane += kGroup) {
     group.lanes = batch.reached >> group.lane & kGroupLanes;
     if (group.lanes == 0) continue;
-    SetUpEdges(job, group, batch, statistics);
+    SetUpEdges(job, group, batch, rungs);
     if (depth) SetUpDepth(job, group, of_fan, batch);
   }
 }
@@ -369,8 +369,7 @@ std::uint32_t Drawn(const Draw& draw, const Batch& batch) {
 }
 
 // Sets up the triangles [first, first + count) of the draw. Returns those that are drawn as they are.
-std::uint32_t SetUpBatch(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& batch,
-                         Statistics& statistics) {
+std::uint32_t SetUpBatch(const DrawJob& job, std::uint32_t first, std::uint32_t count, Batch& batch, Rungs& rungs) {
   const Draw& draw = *job.draw;
   const std::uint32_t all = (1u << count) - 1;
   BatchVertices vertices{draw.vertices.data(), &draw.indices[std::size_t{3} * first]};
@@ -386,18 +385,19 @@ std::uint32_t SetUpBatch(const DrawJob& job, std::uint32_t first, std::uint32_t 
   batch.finite &= all;
   if (HWY_UNLIKELY(!AttributesFinite(draw, vertices.indices))) {
     for (std::uint32_t lane = 0; lane < count; ++lane) {
-      if (!AttributesFinite(draw, first + lane)) batch.finite &= ~(1u << lane);
+      if (!attributes_are_finite(draw, first + lane)) batch.finite &= ~(1u << lane);
     }
   }
-  batch.clipped = HWY_UNLIKELY(draw.grid.has_value()) ? Snap(*draw.grid, batch, statistics) & batch.finite : 0;
+  batch.clipped = HWY_UNLIKELY(draw.grid.has_value()) ? Snap(*draw.grid, batch, rungs) & batch.finite : 0;
   SetUpBoxes(job, vertices, all, batch);
-  SetUpGroups(job, false, batch, statistics);
+  SetUpGroups(job, false, batch, rungs);
   return Drawn(draw, batch);
 }
 
 // Where the polygon of a clipped triangle is a fan of triangles that all have one sign, sets them up, too; returns
 // those that are drawn. False if they have not: then `turns` is set.
-std::uint32_t SetUpFan(const DrawJob& job, std::uint32_t position, SnappedTriangle& snapped, Batch& fan, bool& turns) {
+std::uint32_t SetUpFan(const DrawJob& job, std::uint32_t position, SnappedTriangle& snapped, Batch& fan, bool& turns,
+                       Rungs& rungs) {
   const Draw& draw = *job.draw;
   std::uint32_t indices[3 * kBatch];
   for (std::size_t i = 0; i < 3 * kBatch; ++i) indices[i] = draw.indices[std::size_t{3} * position + i % 3];
@@ -419,9 +419,8 @@ std::uint32_t SetUpFan(const DrawJob& job, std::uint32_t position, SnappedTriang
     fan.z_least[lane] = job.greater ? 0.0f - range.high : range.low;
     fan.z_most[lane] = job.greater ? 0.0f - range.low : range.high;
   }
-  Statistics unused;
   SetUpBoxes(job, vertices, (1u << lanes) - 1, fan);
-  SetUpGroups(job, true, fan, unused);
+  SetUpGroups(job, true, fan, rungs);
   // Those that reach no sample do not matter, nor do those without area.
   const std::uint32_t some = fan.reached & ~fan.degenerate;
   turns = (some & fan.negative) != 0 && (some & ~fan.negative) != 0;

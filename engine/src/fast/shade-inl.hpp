@@ -22,8 +22,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 class Shader {
  public:
-  Shader(const FrameJob& frame, const TileRow& tiles, Statistics& statistics)
-      : frame_(frame), target_(*frame.target), tiles_(tiles), statistics_(statistics) {
+  Shader(const FrameJob& frame, const TileRow& tiles, Rungs& rungs)
+      : frame_(frame), target_(*frame.target), tiles_(tiles), rungs_(rungs) {
     x1_ = std::min(tiles.end * kTileSize, target_.width);
     if (!target_.barycentrics.empty()) {
       outputs_[count_++] = {target_.barycentrics.data(), 3, kBarycentrics};
@@ -109,7 +109,7 @@ class Shader {
         } else {
           for (std::size_t i = 0; i < 3; ++i) hwy::Prefetch(&of.vertices[triangle[i]]);
           for (const AttributeArray& in : of.attributes) {
-            const std::size_t stride = in.stride != 0 ? in.stride : in.components;
+            const std::size_t stride = stride_of(in);
             for (std::size_t i = 0; i < 3; ++i) hwy::Prefetch(&in.values[triangle[i] * stride]);
           }
         }
@@ -195,18 +195,8 @@ class Shader {
 
   // Where the attributes of pixel (x, y) are taken (M1).
   HWY_NOINLINE SamplePosition PositionOf(std::uint32_t position, int x, int y) {
-    const SamplePosition centre{x + 0.5, y + 0.5};
     exact_.use(draw(), position);
-    if (target_.attribute_location == AttributeLocation::centre && exact_.has_values(centre)) return centre;
-    const TieShift shift = frame_.draws[draw_].shift;
-    Statistics unused;
-    if (exact_.covers(centre, shift, unused)) return centre;
-    for (int n = 0; n < target_.samples; ++n) {
-      const SampleLocation location = sample_location(target_.samples, n);
-      const SamplePosition p{x + location.x / 16.0, y + location.y / 16.0};
-      if (exact_.covers(p, shift, unused)) return p;
-    }
-    return centre;  // not reached: the triangle is seen at a sample of this pixel
+    return exact_.place_of_attributes(target_, x, y, frame_.draws[draw_].shift);
   }
 
   // Grid: lanes where not all E_i surely have D's sign. Then some may count as 0 (G2).
@@ -286,7 +276,7 @@ class Shader {
     return {det, error};
   }
   static const float* ValuesOf(const AttributeArray& in, const Pixels& pixels, std::size_t lane, std::size_t k) {
-    const std::size_t stride = in.stride != 0 ? in.stride : in.components;
+    const std::size_t stride = stride_of(in);
     return in.values.data() + pixels.indices[3 * lane + k] * stride;
   }
 
@@ -308,7 +298,7 @@ class Shader {
       const auto told = hn::And(hn::Eq(low, high), hn::Lt(hn::Abs(low), hn::Set(df, kLargestFloatAsFloat)));
       nearest[c] = hn::Add(low, hn::Zero(df));
       unknown[c] = c < out.components ? (~Bits(df, told) | exactly) & lanes : 0;
-      statistics_.values_by_filter +=
+      rungs_.values_by_filter +=
           c < out.components ? static_cast<std::uint32_t>(std::popcount(lanes & ~unknown[c])) : 0;
       any |= unknown[c];
     }
@@ -340,7 +330,7 @@ class Shader {
           u[k] = barycentrics ? (k == c ? 1.0f : 0.0f) : ValuesOf(*in, pixels, l, k)[c];
         exact_.use(draw(), pixels.position[l]);
         out.values[SampleOf(l) * out.components + c] = exact_.attribute(
-            {pixels.x[l], pixels.y[l]}, u, barycentrics ? Interpolation::perspective : in->interpolation, statistics_);
+            {pixels.x[l], pixels.y[l]}, u, barycentrics ? Interpolation::perspective : in->interpolation, &rungs_);
       }
     }
   }
@@ -362,7 +352,7 @@ class Shader {
   const Target& target_;
   const TileRow& tiles_;
   int x1_ = 0;  // where the tiles or the target end
-  Statistics& statistics_;
+  Rungs& rungs_;
   Output outputs_[kMaxAttributes + 1];
   std::size_t count_ = 0;
   std::size_t first_sample_ = 0;  // of the row at hand
@@ -370,8 +360,8 @@ class Shader {
   ExactDraw exact_;
 };
 
-void Shade(const FrameJob& frame, const TileRow& tiles, Statistics& statistics) {
-  Shader(frame, tiles, statistics).Run();
+void Shade(const FrameJob& frame, const TileRow& tiles, Rungs& rungs) {
+  Shader(frame, tiles, rungs).Run();
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class Store {
  private:
   // A row of a tile that nothing was drawn to.
   void empty() const {
-    const float far = (frame_.greater() ? -1 : 1) * std::numeric_limits<float>::infinity();
+    const float far = empty_depth(target_.depth_test);
     const bool initial = !target_.initial_depth.empty();
     if (samples_ == 1) {
       if (!target_.count.empty()) std::fill_n(&target_.count[at_], columns_, 0u);
@@ -114,8 +114,7 @@ class Store {
       if (v == kNoTriangle) return kNoTriangle;
       draw_ = frame_.draw_of(v, draw_);
       const DrawJob& job = frame_.draws[draw_];
-      const std::uint32_t position = v - job.first_ordinal;
-      return job.draw->identifiers.empty() ? job.draw->first_index + position : job.draw->identifiers[position];
+      return index_of(*job.draw, v - job.first_ordinal);
     });
   }
 

@@ -53,11 +53,7 @@ struct FrameJob {
   const CoverageVisitor* visitor;  // or null
   std::size_t sample_number;       // within a pixel
 
-  std::size_t sample_index(int x, int y) const {
-    return (static_cast<std::size_t>(y) * static_cast<std::size_t>(target->width) + static_cast<std::size_t>(x)) *
-               static_cast<std::size_t>(target->samples) +
-           sample_number;
-  }
+  std::size_t sample_index(int x, int y) const { return surefill::sample_index(*target, x, y, sample_number); }
   bool greater() const { return target->depth_test == DepthTest::greater; }
   // The draw that a triangle belongs to; `guess` is one nearby.
   std::size_t draw_of(std::uint32_t ordinal, std::size_t guess) const {
@@ -83,12 +79,12 @@ static_assert(kPiecePairs >= kPieces * kPieceRecords + 64);
 // The vector code for one instruction set.
 struct Kernels {
   // Sets up the triangles of a piece, as far as its lists have room.
-  void (*set_up)(const TileGrid& grid, Piece& piece, Scratch& scratch, Statistics& statistics);
+  void (*set_up)(const TileGrid& grid, Piece& piece, Scratch& scratch, Diagnostics& diagnostics);
   // Draws what the pieces have for a row of tiles.
   void (*draw_tiles)(const FrameJob& frame, std::span<const Piece> pieces, const TileRow& tiles, Scratch& scratch,
-                     Statistics& statistics);
+                     Rungs& rungs);
   // Writes barycentrics and attributes of a row of tiles.
-  void (*shade)(const FrameJob& frame, const TileRow& tiles, Statistics& statistics);
+  void (*shade)(const FrameJob& frame, const TileRow& tiles, Rungs& rungs);
   const char* name;
   // Is this code compiled as it has to be (build_check.hpp)?
   bool (*is_exact)();

@@ -70,7 +70,9 @@ Status status_of(std::span<const Draw> draws) {
     EXPECT_EQ(index[0] == kBefore, expected != Status::ok);
     EXPECT_EQ(index[0] == kNoTriangle, expected == Status::ok && !any);
     const auto visit = [](void*, std::span<const CoverageBlock>) {};
-    EXPECT_EQ(visit_coverage(2, 2, 1, draws, {visit, nullptr}, nullptr, {.path = path}), expected);
+    Target size;
+    size.width = size.height = 2;
+    EXPECT_EQ(visit_coverage(size, draws, {visit, nullptr}, nullptr, {.path = path}), expected);
     OcclusionBuffer buffer;
     EXPECT_EQ(buffer.resize(2, 2), Status::ok);
     EXPECT_EQ(buffer.draw(draws, nullptr, {.path = path}), expected);

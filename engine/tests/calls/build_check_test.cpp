@@ -42,11 +42,13 @@ int main(int argc, char** argv) {
       Target target;
       target.width = target.height = 2, target.count = count;
       Statistics statistics;
-      statistics.triangles = 77;
+      statistics.dropped = 77;
       expect(render(target, {&draw, 1}, &statistics, {.path = path}) == expected, "render");
-      expect((count[0] == 7 && statistics.triangles == 77) == (expected != Status::ok), "what render writes");
+      expect((count[0] == 7 && statistics.dropped == 77) == (expected != Status::ok), "what render writes");
       bool visited = false;
-      expect(visit_coverage(2, 2, 1, {&draw, 1}, {visit, &visited}, nullptr, {.path = path}) == expected,
+      Target size;
+      size.width = size.height = 2;
+      expect(visit_coverage(size, {&draw, 1}, {visit, &visited}, nullptr, {.path = path}) == expected,
              "visit_coverage");
       expect(visited == (expected == Status::ok), "what is visited");
       surefill_target c{};

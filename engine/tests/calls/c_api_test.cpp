@@ -15,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "surefill/diagnostics.hpp"
 #include "surefill/occlusion.hpp"
 #include "surefill/surefill.h"
 #include "surefill/surefill.hpp"
@@ -214,11 +215,13 @@ Answer in_cpp(const Frame& f) {
   options.threads = f.options.threads == 0 ? 1 : f.options.threads;
   options.path = static_cast<Path>(f.options.path);
   Statistics s;
+  Diagnostics d;
+  options.diagnostics = &d;
   Answer answer;
   answer.status = static_cast<std::uint32_t>(render(target, draws, &s, options));
   answer.bytes = b.bytes();
-  answer.statistics = {s.triangles, s.dropped, s.degenerate, s.culled, s.outside, s.rasterized};
-  answer.path = s.path;
+  answer.statistics = {s.triangles(), s.dropped, s.degenerate, s.culled, 0, s.rasterized};
+  answer.path = d.path;
   return answer;
 }
 
@@ -334,16 +337,17 @@ TEST(C, HasTheSameEnumerators) {
   EXPECT_EQ(static_cast<int>(FillRule::northwards_west), SUREFILL_NORTHWARDS_WEST);
   // A status is the same number, and the same sentence; each C++ one that the C interface can return has a name there.
   std::set<std::string> texts;
-  for (std::uint32_t s = 0; s <= SUREFILL_BAD_BUILD; ++s) {
+  for (std::uint32_t s = 0; s <= SUREFILL_TARGET_OUTPUTS; ++s) {
     const std::string text = status_text(static_cast<Status>(s));
     EXPECT_EQ(text, surefill_status_text(static_cast<surefill_status>(s)));
     EXPECT_NE(text, "unknown status");
     EXPECT_TRUE(texts.insert(text).second) << text;
   }
-  EXPECT_STREQ(status_text(static_cast<Status>(SUREFILL_BAD_BUILD + 1)), "unknown status");
+  EXPECT_STREQ(status_text(static_cast<Status>(SUREFILL_TARGET_OUTPUTS + 1)), "unknown status");
   EXPECT_EQ(static_cast<int>(Status::target_overlap), SUREFILL_TARGET_OVERLAP);
   EXPECT_EQ(static_cast<int>(Status::draw_first_index), SUREFILL_DRAW_FIRST_INDEX);
   EXPECT_EQ(static_cast<int>(Status::options_path), SUREFILL_OPTIONS_PATH);
+  EXPECT_EQ(static_cast<int>(Status::to_pixel_vertices), SUREFILL_TO_PIXEL_VERTICES);
 }
 
 TEST(C, MapsToPixelsAsCppDoes) {

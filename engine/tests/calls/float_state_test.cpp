@@ -136,6 +136,12 @@ class Random {
 constexpr int kWidth = 40, kHeight = 130;  // three bands of tiles, for three threads
 constexpr std::size_t kPixels = std::size_t{kWidth} * kHeight;
 
+Target sized(int samples) {
+  Target target;
+  target.width = kWidth, target.height = kHeight, target.samples = samples;
+  return target;
+}
+
 // Triangles whose images differ where rounding does, where subnormals are lost on the way in (vertices, depths, values)
 // or on the way out.
 struct Triangles {
@@ -314,7 +320,7 @@ TEST(FloatState, CallersCodeRunsInTheCallersState) {
     for (const State& state : states()) {
       visits.seen.clear(), executing.seen.clear();
       set(state);
-      const Status status = visit_coverage(kWidth, kHeight, 1, draws, {visit, &visits}, nullptr, options);
+      const Status status = visit_coverage(sized(1), draws, {visit, &visits}, nullptr, options);
       const State after = now();
       set(before);
       ASSERT_EQ(status, Status::ok);
@@ -352,8 +358,7 @@ TEST(FloatState, VisitCoverage) {
     check({"visit_coverage, " + how.name,
            [&] {
              blocks.all.clear();
-             ASSERT_EQ(visit_coverage(kWidth, kHeight, 2, triangles().draws, {visit, &blocks}, nullptr, options),
-                       Status::ok);
+             ASSERT_EQ(visit_coverage(sized(2), triangles().draws, {visit, &blocks}, nullptr, options), Status::ok);
            },
            [&] {
              std::sort(blocks.all.begin(), blocks.all.end());

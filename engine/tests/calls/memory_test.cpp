@@ -257,13 +257,13 @@ struct Image {
     std::fill(count.begin(), count.end(), 77u), std::fill(index.begin(), index.end(), 77u);
     std::fill(depth.begin(), depth.end(), 7.0f), std::fill(values.begin(), values.end(), 7.0f);
     statistics = {};
-    statistics.triangles = 77;
+    statistics.dropped = 77;
   }
   Bytes bytes() const {
     Bytes all;
     append<std::uint32_t>(all, count), append<std::uint32_t>(all, index);
     append<float>(all, depth), append<float>(all, values);
-    const std::uint64_t numbers[] = {statistics.triangles, statistics.rasterized, statistics.outside};
+    const std::uint64_t numbers[] = {statistics.dropped, statistics.rasterized, statistics.culled};
     append<std::uint64_t>(all, numbers);
     return all;
   }
@@ -295,26 +295,27 @@ TEST(Memory, VisitCoverage) {
   const auto visit = [](void* context, std::span<const CoverageBlock> blocks) {
     std::atomic_ref(static_cast<Seen*>(context)->blocks) += blocks.size();
   };
+  Target size;
+  size.width = kWidth, size.height = kHeight;
   for (const How& how : kWays) {
     const Options& options = how.options;
     Statistics statistics;
-    const int refused =
-        check({std::string("visit_coverage, ") + how.name,
-               [&] {
-                 seen = {};
-                 statistics = {};
-                 statistics.triangles = 77;
-               },
-               [&] {
-                 return number(visit_coverage(kWidth, kHeight, 1, draws.draws, {visit, &seen}, &statistics, options));
-               },
-               [&] {
-                 seen.triangles = statistics.triangles;
-                 Bytes bytes;
-                 append<Seen>(bytes, {&seen, 1});
-                 return bytes;
-               },
-               {}});
+    const int refused = check({std::string("visit_coverage, ") + how.name,
+                               [&] {
+                                 seen = {};
+                                 statistics = {};
+                                 statistics.dropped = 77;
+                               },
+                               [&] {
+                                 return number(visit_coverage(size, draws.draws, {visit, &seen}, &statistics, options));
+                               },
+                               [&] {
+                                 seen.triangles = statistics.triangles();
+                                 Bytes bytes;
+                                 append<Seen>(bytes, {&seen, 1});
+                                 return bytes;
+                               },
+                               {}});
 #if !defined(SUREFILL_REFERENCE_ONLY)
     if (options.path == Path::automatic) {
       EXPECT_GE(refused, 2 * least(options)) << how.name;

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "surefill/diagnostics.hpp"
 #include "surefill/occlusion.hpp"
 #include "surefill/surefill.h"
 #include "surefill/surefill.hpp"
@@ -117,6 +118,8 @@ const Movable<Call> kOutputs[] = {
      [](Call& c, std::byte* to) { c.attribute_targets[1].values = moved_span(c.attribute_targets[1].values, to); }},
     {"statistics", sizeof(Statistics),
      [](Call& c, std::byte* to) { c.used_statistics = reinterpret_cast<Statistics*>(to); }},
+    {"diagnostics", sizeof(Diagnostics),
+     [](Call& c, std::byte* to) { c.options.diagnostics = reinterpret_cast<Diagnostics*>(to); }},
 };
 
 const Movable<Call> kInputs[] = {
@@ -184,7 +187,8 @@ TEST(Overlap, OutputsAndInputs) {
           const bool same = std::string(output.name) == "depth" && std::string(input.name) == "initial depth" &&
                             shift == 0;  // which is allowed
           const Status expected = overlaps && !same ? Status::target_overlap : Status::ok;
-          const bool of_frame = std::string(output.name) != "statistics" && std::string(input.name) != "the options";
+          const bool of_frame = std::string(output.name) != "statistics" && std::string(output.name) != "diagnostics" &&
+                                std::string(input.name) != "the options";
           ASSERT_EQ(validate(*call.used_target, call.used_draws), of_frame ? expected : Status::ok) << what;
           ASSERT_FALSE(arena.changed()) << what;
           ASSERT_EQ(render(*call.used_target, call.used_draws, call.used_statistics, *call.used_options), expected)
@@ -195,8 +199,8 @@ TEST(Overlap, OutputsAndInputs) {
       }
     }
   }
-  EXPECT_EQ(refused, 2 * (7 * 12 * 3 - 1));
-  EXPECT_EQ(accepted, 2 * (7 * 12 * 2 + 1));
+  EXPECT_EQ(refused, 2 * (8 * 12 * 3 - 1));
+  EXPECT_EQ(accepted, 2 * (8 * 12 * 2 + 1));
 }
 
 TEST(Overlap, OutputsAndOutputs) {
@@ -244,11 +248,13 @@ TEST(Overlap, VisitCoverage) {
   };
   std::size_t blocks = 0;
   Call call;
+  Target size;
+  size.width = size.height = kSide;
   alignas(Draw) std::array<std::byte, sizeof(Draw) + sizeof(Statistics)> memory{};
   const Draw* draw = moved<Draw>(memory.data(), std::span<const Draw>(call.draws, 1));
   for (const auto& [at, expected] : {std::pair{std::size_t{8}, Status::target_overlap}, {sizeof(Draw), Status::ok}}) {
     auto* statistics = reinterpret_cast<Statistics*>(memory.data() + at);
-    EXPECT_EQ(visit_coverage(kSide, kSide, 1, {draw, 1}, {visit, &blocks}, statistics), expected);
+    EXPECT_EQ(visit_coverage(size, {draw, 1}, {visit, &blocks}, statistics), expected);
     EXPECT_EQ(blocks != 0, expected == Status::ok);
   }
 }
@@ -262,12 +268,12 @@ TEST(Overlap, ToPixel) {
   before = memory;
   const auto out = [&](std::size_t at) { return reinterpret_cast<Vertex*>(memory.data() + at); };
   for (const std::size_t at : {0u, 16u, 64u, 16u + 64u, 112u}) {
-    EXPECT_EQ(to_pixel(*viewport, {vertices, 4}, {out(at), 4}), Status::draw_vertices) << at;
+    EXPECT_EQ(to_pixel(*viewport, {vertices, 4}, {out(at), 4}), Status::to_pixel_vertices) << at;
     EXPECT_EQ(memory, before);
   }
   const auto c = [](void* p) { return static_cast<surefill_vertex*>(p); };
   for (const std::size_t at : {64u, 16u + 64u, 112u, 256u - 48u, 256u, 272u}) {
-    EXPECT_EQ(surefill_to_pixel(c_viewport, c(vertices), 4, c(out(at))), SUREFILL_DRAW_VERTICES) << at;
+    EXPECT_EQ(surefill_to_pixel(c_viewport, c(vertices), 4, c(out(at))), SUREFILL_TO_PIXEL_VERTICES) << at;
     EXPECT_EQ(memory, before);
   }
   EXPECT_EQ(to_pixel(*viewport, {vertices, 4}, {out(128), 4}), Status::ok);

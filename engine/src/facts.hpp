@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What a target and a draw mean, each fact once, for both paths: regions, samples, outputs, indices, strides, culling,
+// finiteness. No arithmetic that decides coverage or values: the paths share none.
+#ifndef SUREFILL_SRC_FACTS_HPP
+#define SUREFILL_SRC_FACTS_HPP
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include "surefill/surefill.hpp"
+
+namespace surefill {
+
+// Half-open rectangle of pixels.
+struct PixelBox {
+  int x0, y0, x1, y1;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+  bool contains(int x, int y) const { return x0 <= x && x < x1 && y0 <= y && y < y1; }
+};
+
+// A sample position in pixels: a multiple of 1/16 in [0, kMaxTargetSize], exact in double.
+struct SamplePosition {
+  double x, y;
+};
+
+// ---- of a target
+// Which results somebody asks for, in terms of work.
+struct Wanted {
+  bool shading;     // barycentrics or attributes
+  bool visibility;  // the triangle that is seen: its index, or shading
+  bool depth;       // depth, or what needs it
+};
+
+inline Wanted wanted_outputs(const Target& target) {
+  Wanted wanted{!target.barycentrics.empty(), false, false};
+  for (const AttributeTarget& attribute : target.attributes) wanted.shading |= !attribute.values.empty();
+  wanted.visibility = wanted.shading || !target.index.empty();
+  wanted.depth = wanted.visibility || !target.depth.empty();
+  return wanted;
+}
+
+// Where sample n of a pixel lies, from the pixel's corner (S4).
+inline SamplePosition sample_offset(int samples, int n) {
+  const SampleLocation location = sample_location(samples, n);
+  return {location.x / 16.0, location.y / 16.0};
+}
+
+// The element of a buffer that sample n of pixel (x, y) has.
+inline std::size_t sample_index(const Target& target, int x, int y, std::size_t n) {
+  return (static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x)) *
+             static_cast<std::size_t>(target.samples) +
+         n;
+}
+
+// The depth of an empty sample without initial depth (V1).
+inline float empty_depth(DepthTest test) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  return test == DepthTest::greater ? -kInfinity : kInfinity;
+}
+
+// ---- of a draw
+inline std::size_t triangles_of(const Draw& draw) {
+  return draw.indices.size() / 3;
+}
+
+// Target and scissor (M3).
+inline PixelBox region_of(const Target& target, const Draw& draw) {
+  PixelBox region{0, 0, target.width, target.height};
+  if (draw.scissor) {
+    region = {std::max(region.x0, draw.scissor->x0), std::max(region.y0, draw.scissor->y0),
+              std::min(region.x1, draw.scissor->x1), std::min(region.y1, draw.scissor->y1)};
+    if (region.empty()) region = {};
+  }
+  return region;
+}
+
+// Floats from one vertex to the next.
+inline std::size_t stride_of(const AttributeArray& attribute) {
+  return attribute.stride != 0 ? attribute.stride : attribute.components;
+}
+
+// Does culling leave out what faces so? `facing` has the sign of D (F1, F2) or, under Grid, that of a sample (G1).
+inline bool culls(const DrawState& draw, int facing) {
+  const bool front = (facing > 0) == (draw.front_face == FrontFace::clockwise);
+  return draw.cull == (front ? Cull::front : Cull::back);
+}
+
+// ---- of a triangle, by its position in the draw
+inline std::uint32_t vertex_index(const Draw& draw, std::uint32_t position, std::size_t corner) {
+  return draw.indices[std::size_t{3} * position + corner];
+}
+
+inline const Vertex& vertex_of(const Draw& draw, std::uint32_t position, std::size_t corner) {
+  return draw.vertices[vertex_index(draw, position, corner)];
+}
+
+// What the index output has for it (V2).
+inline std::uint32_t index_of(const Draw& draw, std::uint32_t position) {
+  return draw.identifiers.empty() ? draw.first_index + position : draw.identifiers[position];
+}
+
+inline bool is_finite(const Vertex& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+// B1, of the attributes alone: every component, whatever is asked for.
+inline bool attributes_are_finite(const Draw& draw, std::uint32_t position) {
+  for (const AttributeArray& attribute : draw.attributes) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const float* values = &attribute.values[vertex_index(draw, position, corner) * stride_of(attribute)];
+      for (std::uint32_t c = 0; c < attribute.components; ++c) {
+        if (!std::isfinite(values[c])) return false;
+      }
+    }
+  }
+  return true;
+}
+
+// B1: if not, the triangle is dropped.
+inline bool is_finite(const Draw& draw, std::uint32_t position) {
+  return is_finite(vertex_of(draw, position, 0)) && is_finite(vertex_of(draw, position, 1)) &&
+         is_finite(vertex_of(draw, position, 2)) && attributes_are_finite(draw, position);
+}
+
+}  // namespace surefill
+
+#endif  // SUREFILL_SRC_FACTS_HPP

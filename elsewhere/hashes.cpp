@@ -18,6 +18,7 @@
 
 #include "corpus/hash.hpp"
 #include "corpus/scene.hpp"
+#include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
 namespace {
@@ -95,11 +96,13 @@ std::string drawn_by(const Options& options) {
   std::uint32_t count = 0;
   Target target;
   target.width = target.height = 1, target.count = {&count, 1};
-  Statistics statistics;
-  if (const Status status = render(target, {}, &statistics, options); status != Status::ok) {
+  Diagnostics diagnostics;
+  Options with = options;
+  with.diagnostics = &diagnostics;
+  if (const Status status = render(target, {}, nullptr, with); status != Status::ok) {
     throw std::runtime_error(status_text(status));
   }
-  return statistics.path;
+  return diagnostics.path;
 }
 
 int run(const Arguments& arguments) {

@@ -59,11 +59,14 @@ ARCHITECTURES = {
     "armhf": cross("arm-linux-gnueabihf", "armv7l", "arm"),
     "i686": Machine("i686-linux-gnu-g++", ["g++-i686-linux-gnu"], [],
                     ["-DCMAKE_SYSTEM_NAME=Linux", "-DCMAKE_SYSTEM_PROCESSOR=i686", "-DCMAKE_C_COMPILER=i686-linux-gnu-gcc"],
-                    flags="-msse2 -mfpmath=sse", link="-static"),
+                    flags="-msse4.2 -maes -mpclmul -mfpmath=sse", link="-static"),
+    "i686-sse2": Machine("i686-linux-gnu-g++", ["g++-i686-linux-gnu"], [],
+                         ["-DCMAKE_SYSTEM_NAME=Linux", "-DCMAKE_SYSTEM_PROCESSOR=i686", "-DCMAKE_C_COMPILER=i686-linux-gnu-gcc"],
+                         flags="-msse2 -mfpmath=sse", link="-static"),
     "windows": Machine("x86_64-w64-mingw32-g++-posix", ["g++-mingw-w64-x86-64-posix", "wine64"], ["/usr/lib/wine/wine64"],
                        ["-DCMAKE_SYSTEM_NAME=Windows", "-DCMAKE_SYSTEM_PROCESSOR=x86_64",
                         "-DCMAKE_C_COMPILER=x86_64-w64-mingw32-gcc-posix"],
-                       link="-static", ending=".exe", emulator="/usr/lib/wine/wine64"),
+                       flags="-msse4.2 -maes -mpclmul", link="-static", ending=".exe", emulator="/usr/lib/wine/wine64"),
 }
 
 
@@ -143,9 +146,9 @@ def lines_equal(machine, programs, scenes, path):
     return answers[0][0], sum(a[1] for a in answers), sum(a[2] for a in answers)
 
 
-def version(command):
+def version(command, option="--version"):
     """The first word that the program says of its version and that is one."""
-    said = re.search(r"\d+\.\d+(\.\d+)?", called([command, "--version"]))
+    said = re.search(r"\d+(\.\d+)*", called([command, option]).replace(pathlib.Path(command).name, ""))
     return said.group() if said else "?"
 
 
@@ -156,7 +159,7 @@ def rows(name, scenes, reference_only):
     programs = build(name, machine, ["surefill_hashes", "surefill_sizes"])
     built = time.monotonic() - started
     called([*machine.run, programs / f"surefill_sizes{machine.ending}"], env=os.environ | {"WINEDEBUG": "-all", "WINEPREFIX": str(BUILD / "wine")})
-    compiler = f"{'clang' if 'clang' in machine.compiler else 'g++'} {version(machine.compiler)}"
+    compiler = f"clang {version(machine.compiler)}" if "clang" in machine.compiler else f"g++ {version(machine.compiler, '-dumpfullversion')}"
     emulated = f"{pathlib.Path(machine.emulator).name} {version(machine.emulator)}" if machine.emulator else "not emulated"
     if machine.emulator.startswith("qemu"):
         emulated = f"emulated, {emulated}"

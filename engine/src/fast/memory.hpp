@@ -12,6 +12,8 @@
 
 #if defined(__linux__)
 #include <sys/mman.h>
+#elif defined(_WIN32)
+#include <malloc.h>
 #endif
 
 namespace surefill::fast {
@@ -29,7 +31,7 @@ class Buffer {
     const std::size_t rounded = (bytes + alignment - 1) / alignment * alignment;
     size_ = 0;
     data_.reset();
-    data_.reset(static_cast<T*>(std::aligned_alloc(alignment, rounded)));
+    data_.reset(static_cast<T*>(allocate(alignment, rounded)));
     if (data_ == nullptr) return false;
 #if defined(__linux__)
     if (alignment == kLargePage) madvise(data_.get(), rounded, MADV_HUGEPAGE);
@@ -45,9 +47,21 @@ class Buffer {
   }
 
  private:
+#if defined(_WIN32)  // whose C library has no aligned_alloc
+  static void* allocate(std::size_t alignment, std::size_t size) {
+    return _aligned_malloc(size, alignment);
+  }
+  struct Free {
+    void operator()(T* data) const { _aligned_free(data); }
+  };
+#else
+  static void* allocate(std::size_t alignment, std::size_t size) {
+    return std::aligned_alloc(alignment, size);
+  }
   struct Free {
     void operator()(T* data) const { std::free(data); }
   };
+#endif
   std::unique_ptr<T[], Free> data_;
   std::size_t size_ = 0;
 };

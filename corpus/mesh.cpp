@@ -71,9 +71,9 @@ std::vector<std::string_view> words_of(std::string_view line) {
 }
 
 // Reads the text for what tinyobjloader would let pass, and collects positions and normals.
-class Check {
+class TextCheck {
  public:
-  Check(std::string_view text, std::string_view file) : file_(file) {
+  TextCheck(std::string_view text, std::string_view file) : file_(file) {
     if (const std::string other = corpus::what_is_not_read(text); !other.empty()) fail(file, 1, other);
     std::size_t begin = 0;
     while (begin < text.size()) {
@@ -244,7 +244,7 @@ std::vector<Float3> smooth_normals(const std::vector<Float3>& positions, const s
 
 Mesh parse_obj(std::string_view bytes, std::string_view file) {
   const std::string_view text = corpus::without_byte_order_mark(bytes);
-  const Check check(text, file);
+  const TextCheck check(text, file);
   tinyobj::ObjReaderConfig config;
   config.triangulate = true;
   config.vertex_color = false;

@@ -12,7 +12,7 @@
 #include "fuzz/finding.hpp"
 #include "fuzz/mutate.hpp"
 #include "properties/generators/meshes.hpp"
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::fuzz {
 namespace {

@@ -12,8 +12,8 @@
 #include "corpus/mesh.hpp"
 #include "fuzz/finding.hpp"
 #include "oracle/oracle.hpp"
-#include "properties/machinery/check.hpp"
 #include "properties/machinery/compare.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::fuzz {
 namespace {

@@ -70,7 +70,7 @@ class Column {
       for (std::uint64_t n = 0; n < some && !interrupted(); ++n) {
         const corpus::Scene scene = under_model(properties::sampled_case(property_, n), right);
         for (const properties::Renderer& renderer : right.renderers) {
-          const properties::Verdict verdict = property_.decide(scene, renderer);
+          const properties::TrialResult verdict = property_.decide(scene, renderer);
           const std::lock_guard lock(mutex);
           ++matrix_.right_cases;
           if (verdict.differences != 0)

@@ -61,9 +61,9 @@ Rational combine(const Weights& weights, const std::array<Rational, 3>& values) 
 // t p = m0 + s (m1 - m0) + r (m2 - m0), and with l = (1 - s - r, s, r) also t p = sum l_i m_i. The basis (m_i) gives
 // p = sum (E_i / D) m_i, so l_i = t E_i / D, and sum l_i = 1 makes t = D / sum E_i: the weights l of the plane's affine
 // combination are I2's E_i / sum E_i, Z / t is I1's depth, and l_i W_i / t is the noperspective W_i E_i / D.
-class Plane {
+class TrianglePlane {
  public:
-  explicit Plane(const std::array<Vector, 3>& m) : origin_(m[0]), w_{m[0].w, m[1].w, m[2].w} {
+  explicit TrianglePlane(const std::array<Vector, 3>& m) : origin_(m[0]), w_{m[0].w, m[1].w, m[2].w} {
     const Vector u = m[1] - m[0];
     const Vector v = m[2] - m[0];
     normal_ = cross(u, v);
@@ -157,11 +157,11 @@ struct Triangle {
   std::array<Rational, 3> z, w;
   std::vector<Point> polygon;  // clipped, projected and, with Grid, snapped
   Outline outline;
-  int begin = 0, end = 0;      // pixel lines it may meet
-  int orientation = 0;         // sign of D
-  std::optional<Plane> plane;  // without Grid
-  std::optional<Basis> basis;  // with Grid
-  Rational low, high;          // with Grid: of Z/W of the clipped polygon's corners
+  int begin = 0, end = 0;              // pixel lines it may meet
+  int orientation = 0;                 // sign of D
+  std::optional<TrianglePlane> plane;  // without Grid
+  std::optional<Basis> basis;          // with Grid
+  Rational low, high;                  // with Grid: of Z/W of the clipped polygon's corners
 };
 
 // Both kinds of weights at one place, M1.

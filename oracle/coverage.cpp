@@ -53,18 +53,19 @@ int sign_of_cross(double u, double s, double t, double v) {
 }
 
 // A convex polygon of the screen in homogeneous integers (w > 0), for M4.
-struct Corner {
+struct ScreenCorner {
   Integer x, y, w;
 };
 
 // The part of a convex polygon (a point and a segment are polygons too) where a x + b y + c w >= 0: exact, and not
 // empty exactly if the intersection is not.
-std::vector<Corner> clip(const std::vector<Corner>& polygon, const Integer& a, const Integer& b, const Integer& c) {
-  const auto height = [&](const Corner& p) -> Integer { return a * p.x + b * p.y + c * p.w; };
-  std::vector<Corner> kept;
+std::vector<ScreenCorner> clip(const std::vector<ScreenCorner>& polygon, const Integer& a, const Integer& b,
+                               const Integer& c) {
+  const auto height = [&](const ScreenCorner& p) -> Integer { return a * p.x + b * p.y + c * p.w; };
+  std::vector<ScreenCorner> kept;
   for (std::size_t n = 0; n < polygon.size(); ++n) {
-    const Corner& p = polygon[n];
-    const Corner& q = polygon[(n + 1) % polygon.size()];
+    const ScreenCorner& p = polygon[n];
+    const ScreenCorner& q = polygon[(n + 1) % polygon.size()];
     const Integer hp = height(p), hq = height(q);
     if (hp >= 0) kept.push_back(p);
     if (sgn(hp) * sgn(hq) < 0) {
@@ -144,7 +145,7 @@ bool Cone::square_within(const Rect& square) const {
 
 bool Cone::square_meets(const Rect& square) const {
   if (det_ == 0) return false;
-  std::vector<Corner> polygon = {
+  std::vector<ScreenCorner> polygon = {
       {square.x0, square.y0, 1}, {square.x1, square.y0, 1}, {square.x1, square.y1, 1}, {square.x0, square.y1, 1}};
   std::array<float, 9> numbers{};
   for (std::size_t i = 0; i < 3; ++i) {

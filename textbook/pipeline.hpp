@@ -19,30 +19,30 @@ namespace surefill::textbook {
 
 // a X + b Y + c Z + d W >= 0
 template <class Number>
-struct Plane {
+struct ClipPlane {
   Number a, b, c, d;
 };
 
 template <class Number>
-struct Corner {
+struct ClipCorner {
   Number x, y, z, w;
   bool cut = false;  // the side from here to the next corner was made by clipping; it owns the samples on it
 };
 
 template <class Number>
-using Polygon = std::vector<Corner<Number>>;
+using Polygon = std::vector<ClipCorner<Number>>;
 
 template <class Number>
-Number height(const Plane<Number>& plane, const Corner<Number>& p) {
+Number height(const ClipPlane<Number>& plane, const ClipCorner<Number>& p) {
   return plane.a * p.x + plane.b * p.y + plane.c * p.z + plane.d * p.w;
 }
 
 // Sutherland and Hodgman, for one plane.
 template <class Number>
-Polygon<Number> clip(const Polygon<Number>& polygon, const Plane<Number>& plane) {
+Polygon<Number> clip(const Polygon<Number>& polygon, const ClipPlane<Number>& plane) {
   Polygon<Number> kept;
   for (std::size_t n = 0; n < polygon.size(); ++n) {
-    const Corner<Number>&p = polygon[n], &q = polygon[(n + 1) % polygon.size()];
+    const ClipCorner<Number>&p = polygon[n], &q = polygon[(n + 1) % polygon.size()];
     const Number hp = height(plane, p), hq = height(plane, q);
     if (hp >= 0) {
       kept.push_back(p);
@@ -50,7 +50,7 @@ Polygon<Number> clip(const Polygon<Number>& polygon, const Plane<Number>& plane)
     }
     if ((hp > 0 && hq < 0) || (hp < 0 && hq > 0)) {
       const Number t = hp / (hp - hq);
-      Corner<Number> cut = p;
+      ClipCorner<Number> cut = p;
       cut.x += t * (q.x - p.x);
       cut.y += t * (q.y - p.y);
       cut.z += t * (q.z - p.z);
@@ -64,14 +64,14 @@ Polygon<Number> clip(const Polygon<Number>& polygon, const Plane<Number>& plane)
 
 // The sides of the target moved out by `margin` pixels, and the near and far planes.
 template <class Number>
-std::vector<Plane<Number>> side_planes(int width, int height, int margin) {
+std::vector<ClipPlane<Number>> side_planes(int width, int height, int margin) {
   return {{Number(1), Number(0), Number(0), Number(margin)},
           {Number(-1), Number(0), Number(0), Number(width + margin)},
           {Number(0), Number(1), Number(0), Number(margin)},
           {Number(0), Number(-1), Number(0), Number(height + margin)}};
 }
 template <class Number>
-std::vector<Plane<Number>> depth_planes() {
+std::vector<ClipPlane<Number>> depth_planes() {
   return {{Number(0), Number(0), Number(1), Number(0)}, {Number(0), Number(0), Number(-1), Number(1)}};
 }
 
@@ -84,10 +84,10 @@ Polygon<Number> polygon_of(const std::array<Vertex, 3>& v) {
 
 // Frustum culling: are all corners of an object's box outside one plane?
 template <class Number>
-bool outside(std::span<const Corner<Number>> box, std::span<const Plane<Number>> planes) {
-  for (const Plane<Number>& plane : planes) {
+bool outside(std::span<const ClipCorner<Number>> box, std::span<const ClipPlane<Number>> planes) {
+  for (const ClipPlane<Number>& plane : planes) {
     bool all = true;
-    for (const Corner<Number>& corner : box) all = all && height(plane, corner) < 0;
+    for (const ClipCorner<Number>& corner : box) all = all && height(plane, corner) < 0;
     if (all) return true;
   }
   return false;
@@ -103,12 +103,12 @@ template <class Number>
 Polygon<Number> clipped(const std::array<Vertex, 3>& v, int width, int height_in_pixels, ClipTo to, bool depth) {
   Polygon<Number> polygon = polygon_of<Number>(v);
   if (depth) {
-    for (const Plane<Number>& plane : depth_planes<Number>()) polygon = clip(polygon, plane);
+    for (const ClipPlane<Number>& plane : depth_planes<Number>()) polygon = clip(polygon, plane);
   }
   const int margin = to == ClipTo::guard_band ? kGuardMargin : 0;
-  for (const Plane<Number>& plane : side_planes<Number>(width, height_in_pixels, margin)) {
+  for (const ClipPlane<Number>& plane : side_planes<Number>(width, height_in_pixels, margin)) {
     bool all_inside = true;
-    for (const Corner<Number>& corner : polygon) all_inside = all_inside && height(plane, corner) >= 0;
+    for (const ClipCorner<Number>& corner : polygon) all_inside = all_inside && height(plane, corner) >= 0;
     if (!all_inside) polygon = clip(polygon, plane);
   }
   return polygon;
@@ -125,7 +125,7 @@ class ScreenPolygon {
   };
 
   explicit ScreenPolygon(const Polygon<Number>& polygon) {
-    for (const Corner<Number>& corner : polygon) {
+    for (const ClipCorner<Number>& corner : polygon) {
       sides_.push_back({corner.x / corner.w, corner.y / corner.w, Number(0), Number(0), Number(0), corner.cut});
     }
     Number area(0);

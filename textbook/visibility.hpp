@@ -136,7 +136,7 @@ template <class Number>
 struct Piece {
   std::uint32_t index;
   Polygon<Number> polygon;
-  Plane<Number> depth;  // z(x, y) = a x + b y + d (I1), as a plane of homogeneous corners
+  ClipPlane<Number> depth;  // z(x, y) = a x + b y + d (I1), as a plane of homogeneous corners
 };
 
 // The triangle as one piece; empty polygon where D = 0 or nothing of it lies in the target.
@@ -166,13 +166,13 @@ template <class Number>
 void paint_order(std::vector<Piece<Number>> pieces, std::vector<Piece<Number>>& order) {
   std::erase_if(pieces, [](const Piece<Number>& piece) { return piece.polygon.size() < 3; });
   if (pieces.empty()) return;
-  const Plane<Number> root = pieces[0].depth;
+  const ClipPlane<Number> root = pieces[0].depth;
   std::vector<Piece<Number>> farther, same, nearer;
   for (Piece<Number>& piece : pieces) {
-    const Plane<Number> behind{piece.depth.a - root.a, piece.depth.b - root.b, Number(0), piece.depth.d - root.d};
-    const Plane<Number> before{-behind.a, -behind.b, Number(0), -behind.d};
+    const ClipPlane<Number> behind{piece.depth.a - root.a, piece.depth.b - root.b, Number(0), piece.depth.d - root.d};
+    const ClipPlane<Number> before{-behind.a, -behind.b, Number(0), -behind.d};
     bool any_behind = false, any_before = false;
-    for (const Corner<Number>& corner : piece.polygon) {
+    for (const ClipCorner<Number>& corner : piece.polygon) {
       const Number h = height(behind, corner);
       any_behind = any_behind || h > 0;
       any_before = any_before || h < 0;

@@ -169,11 +169,11 @@ void draw_outline(const Panel& panel, const Explained::OneTriangle& triangle) {
   // Near enough to the panel that what is cut off cannot be seen.
   Polygon<double> polygon = polygon_of<double>(triangle.vertices);
   const double margin = 0.02;
-  const Plane<double> planes[] = {{1, 0, 0, margin - panel.x0},
-                                  {-1, 0, 0, panel.x1 + margin},
-                                  {0, 1, 0, margin - panel.y0},
-                                  {0, -1, 0, panel.y1 + margin}};
-  for (const Plane<double>& plane : planes) polygon = clip(polygon, plane);
+  const ClipPlane<double> planes[] = {{1, 0, 0, margin - panel.x0},
+                                      {-1, 0, 0, panel.x1 + margin},
+                                      {0, 1, 0, margin - panel.y0},
+                                      {0, -1, 0, panel.y1 + margin}};
+  for (const ClipPlane<double>& plane : planes) polygon = clip(polygon, plane);
   if (polygon.size() < 3) return;
   const ScreenPolygon<double> screen(polygon);
   const std::vector<ScreenPolygon<double>::Side>& sides = screen.sides();

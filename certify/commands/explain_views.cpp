@@ -253,7 +253,8 @@ std::string clipping_view(const Explained& scene) {
       const Polygon<mpq_class> polygon = clipped<mpq_class>(one.vertices, scene.width, scene.height, to, false);
       const ScreenPolygon<mpq_class> exact(polygon);
       const ScreenPolygon<float> rounded(clipped<float>(one.vertices, scene.width, scene.height, to, false));
-      const bool cut = std::any_of(polygon.begin(), polygon.end(), [](const Corner<mpq_class>& c) { return c.cut; });
+      const bool cut =
+          std::any_of(polygon.begin(), polygon.end(), [](const ClipCorner<mpq_class>& c) { return c.cut; });
       clipped_triangles += cut ? 1 : 0;
       corners += static_cast<int>(polygon.size());
       if (n < 2) draw_polygon(panel, exact, fill(t) + " fill-opacity=\"0.55\" stroke=\"#1c2433\"");

@@ -54,7 +54,7 @@ VertexStream vertex_stream(const surefill_adapter_scene& scene, bool attributes)
   const auto add = [&stream](float value) { stream.words.push_back(std::bit_cast<std::uint32_t>(value)); };
   for (std::uint32_t d = scene.draw_count; d-- > 0;) {
     const surefill_adapter_draw& draw = scene.draws[d];
-    Batch& batch = stream.batches.emplace_back();
+    DrawRange& batch = stream.batches.emplace_back();
     batch.draw = &draw;
     batch.first = static_cast<std::uint32_t>(stream.words.size() / stream.stride);
     batch.count = 3 * draw.triangle_count;

@@ -46,7 +46,7 @@ constexpr std::size_t kMaxAttributes = 4;
 
 // The vertices as the shaders take them: position (4 floats), identifier, corner, kMaxAttributes times 4 floats at
 // most.
-struct Batch {
+struct DrawRange {
   const surefill_adapter_draw* draw;
   std::uint32_t first, count;  // vertices
   std::array<std::int32_t, kMaxAttributes> interpolation{};
@@ -54,7 +54,7 @@ struct Batch {
 struct VertexStream {
   std::vector<std::uint32_t> words;
   std::uint32_t stride = 0;  // words a vertex
-  std::vector<Batch> batches;
+  std::vector<DrawRange> batches;
 };
 
 // The whole frame from its last triangle to its first, those of a draw by identifier: with the test LESS_OR_EQUAL the

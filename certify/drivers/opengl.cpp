@@ -506,7 +506,7 @@ class OpenGl : public Driver {
 
   void draw_batches(const surefill_adapter_scene& scene, const VertexStream& stream, GLint interpolation,
                     bool visible) {
-    for (const Batch& batch : stream.batches) {
+    for (const DrawRange& batch : stream.batches) {
       if (batch.count == 0) continue;
       set_state(scene, *batch.draw, visible);
       if (interpolation >= 0) glUniform4iv(interpolation, 1, batch.interpolation.data());

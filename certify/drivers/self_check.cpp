@@ -44,9 +44,9 @@ Plain turned(Plain triangle) {
 }
 
 // One draw of such triangles, as the adapter gets it, and the image that is due.
-class Check {
+class SelfCheck {
  public:
-  Check(Driver& driver, const std::string& what, std::vector<Plain> triangles)
+  SelfCheck(Driver& driver, const std::string& what, std::vector<Plain> triangles)
       : what_(what), triangles_(std::move(triangles)), driver_(driver), info_(driver.info()) {
     scene_.width = scene_.height = kSize;
     scene_.samples = 1;
@@ -179,7 +179,7 @@ class Check {
 std::string self_check(Driver& driver) {
   const std::vector<Plain> scene{{kAll, 0.75f, 5}, {kSmall, 0.25f, 7}, turned({kOther, 0.5f, 9})};
   const auto check = [&driver, &scene](const std::string& what, const auto& change) {
-    Check checked(driver, what, scene);
+    SelfCheck checked(driver, what, scene);
     change(checked);
     return checked.run();
   };
@@ -189,27 +189,27 @@ std::string self_check(Driver& driver) {
       if (problem.empty()) problem = text;
     }
   };
-  all({check("a plain scene", [](Check&) {}),
-       check("culled back faces", [](Check& c) { c.draw().cull = SUREFILL_ADAPTER_CULL_BACK; }),
+  all({check("a plain scene", [](SelfCheck&) {}),
+       check("culled back faces", [](SelfCheck& c) { c.draw().cull = SUREFILL_ADAPTER_CULL_BACK; }),
        check("culled front faces",
-             [](Check& c) {
+             [](SelfCheck& c) {
                c.draw().cull = SUREFILL_ADAPTER_CULL_FRONT;
                c.draw().front_face = SUREFILL_ADAPTER_COUNTER_CLOCKWISE;
              }),
        check("a scissor",
-             [](Check& c) {
+             [](SelfCheck& c) {
                c.draw().has_scissor = 1;
                const std::int32_t scissor[4] = {3, 2, 12, 9};
                std::copy(std::begin(scissor), std::end(scissor), c.draw().scissor);
              }),
-       check("depth test greater", [](Check& c) { c.scene().depth_test = SUREFILL_ADAPTER_GREATER; }),
-       check("depth clipping", [](Check& c) { c.draw().depth_mode = SUREFILL_ADAPTER_CLIP_DEPTH; })});
+       check("depth test greater", [](SelfCheck& c) { c.scene().depth_test = SUREFILL_ADAPTER_GREATER; }),
+       check("depth clipping", [](SelfCheck& c) { c.draw().depth_mode = SUREFILL_ADAPTER_CLIP_DEPTH; })});
   if (!(driver.info().features & SUREFILL_ADAPTER_SAMPLES)) return problem;
   for (const std::uint32_t samples : {2u, 4u, 8u, 16u}) {
     if (!problem.empty()) break;
     try {
       problem =
-          check(std::to_string(samples) + " samples a pixel", [samples](Check& c) { c.scene().samples = samples; });
+          check(std::to_string(samples) + " samples a pixel", [samples](SelfCheck& c) { c.scene().samples = samples; });
     } catch (const NotJudged&) {
       continue;  // a number of samples that the driver lacks
     }

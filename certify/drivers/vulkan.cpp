@@ -432,7 +432,7 @@ class Vulkan : public Driver, private VulkanDevice {
     vkCmdBeginRendering(commands_, &rendering);
     const VkDeviceSize start = 0;
     vkCmdBindVertexBuffers(commands_, 0, 1, &vertices_.buffer, &start);
-    for (const Batch& batch : stream.batches) {
+    for (const DrawRange& batch : stream.batches) {
       if (batch.count == 0) continue;
       const bool clamp = batch.draw->depth_mode != SUREFILL_ADAPTER_CLIP_DEPTH;
       vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,

@@ -15,8 +15,8 @@
 #include "certify/rivals/perspective_check.hpp"
 #include "certify/rivals/profile.hpp"
 #include "properties/generators/generators.hpp"
-#include "properties/machinery/check.hpp"
 #include "properties/machinery/properties.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::certify {
 
@@ -61,7 +61,7 @@ CaseResult rival_case(const Scene& scene, const Run& run) {
   return result;
 }
 
-CaseResult result_of(const properties::Verdict& verdict) {
+CaseResult result_of(const properties::TrialResult& verdict) {
   CaseResult result;
   result.samples = verdict.samples;
   result.differences = verdict.differences;

@@ -134,7 +134,7 @@ void add_property_checks(const Settings& settings, std::vector<Check>& checks) {
       if (!exhaustive && property.exhaustive > 0) seed %= property.exhaustive;
       Scene scene = property.make(seed);
       if (!supported(scene, settings.support)) return skipped_case();
-      properties::Verdict verdict = property.decide(scene, settings.engine);
+      properties::TrialResult verdict = property.decide(scene, settings.engine);
       CaseResult result;
       result.samples = verdict.samples;
       result.differences = verdict.differences;

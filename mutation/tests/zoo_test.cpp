@@ -48,7 +48,7 @@ TEST(Zoo, BlatantSpecimensDieEarly) {
     ASSERT_NE(specimen, nullptr) << name;
     const Property& property = *property_named(specimen->named_by);
     std::uint64_t n = 0;
-    Verdict verdict;
+    TrialResult verdict;
     while (n < 500 && verdict.differences == 0)
       verdict = property.decide(sampled_case(property, n++), specimen->render);
     EXPECT_NE(verdict.differences, 0u) << name << " survives 500 cases of " << property.name;
@@ -81,7 +81,7 @@ TEST(Zoo, PicturesShowWhatFindingsSay) {
       const std::uint64_t cases = property.name == std::string_view(specimen.named_by) ? 400 : 6;
       for (std::uint64_t n = 0; n < affordable_cases(property, cases); ++n) {
         const corpus::Scene scene = sampled_case(property, n);
-        const Verdict verdict = property.decide(scene, specimen.render);
+        const TrialResult verdict = property.decide(scene, specimen.render);
         if (verdict.differences == 0) continue;
         const std::string& said = verdict.finding;
         const std::size_t pixel = said.find(" at pixel (");

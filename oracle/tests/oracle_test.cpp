@@ -26,14 +26,14 @@ constexpr float kUlp = std::numeric_limits<float>::epsilon();  // of 1
 using Rows = std::vector<std::string>;
 
 // Triangles of three vertices each, in order, and the state they are drawn with.
-struct Batch {
+struct TestDraw {
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices, identifiers;
   std::vector<std::vector<float>> values;
   std::vector<AttributeArray> attributes;
   Draw state;
 
-  Batch(std::initializer_list<Vertex> v) : vertices(v), indices(v.size()) {
+  TestDraw(std::initializer_list<Vertex> v) : vertices(v), indices(v.size()) {
     std::iota(indices.begin(), indices.end(), 0u);
   }
   void attribute(std::vector<float> v, Interpolation interpolation = Interpolation::perspective) {
@@ -74,7 +74,7 @@ struct Picture {
     target.initial_depth = initial;
   }
   void render(std::vector<Draw> draws, int threads = 1) { oracle::render(target, draws, threads); }
-  void render(Batch& batch) { render({batch.draw()}); }
+  void render(TestDraw& batch) { render({batch.draw()}); }
 
   // The counts, a row of pixels each: '.' for 0.
   Rows rows() const {
@@ -91,7 +91,7 @@ struct Picture {
   }
 };
 
-Rows counts(Batch& batch, int width, int height) {
+Rows counts(TestDraw& batch, int width, int height) {
   Picture picture(width, height);
   picture.count_only();
   picture.render(batch);
@@ -107,12 +107,12 @@ std::uint32_t bits(float value) {
 }
 
 // Covers every sample of small targets; depth and everything else is affine in x alone: f(0) = a, f(8) = b.
-Batch ramp(float a, float b) {
+TestDraw ramp(float a, float b) {
   return {{-8, -8, 2 * a - b, 1}, {24, -8, 3 * b - 2 * a, 1}, {-8, 24, 2 * a - b, 1}};
 }
 
 // The whole target at this depth.
-Batch flat_triangle(float z) {
+TestDraw flat_triangle(float z) {
   return {{-64, -64, z, 1}, {256, -64, z, 1}, {-64, 256, z, 1}};
 }
 
@@ -124,10 +124,10 @@ TEST(Oracle, TiesOfAllFillRules) {
     SCOPED_TRACE(rule);
     const Vertex a{0.5f, 0.5f, 0, 1}, b{2.5f, 0.5f, 0, 1}, c{2.5f, 2.5f, 0, 1}, d{0.5f, 2.5f, 0, 1};
     const Rows& rows = expected[rule];
-    Batch front{a, b, c}, back{a, c, b}, scales{scaled(a, 0.25f), scaled(b, 1024), scaled(c, 0x1p-140f)},
+    TestDraw front{a, b, c}, back{a, c, b}, scales{scaled(a, 0.25f), scaled(b, 1024), scaled(c, 0x1p-140f)},
         square{a, b, c, a, c, d};
-    Batch behind{scaled(a, -1), scaled(b, -1), scaled(c, -1)};
-    for (Batch* batch : {&front, &back, &scales, &square, &behind})
+    TestDraw behind{scaled(a, -1), scaled(b, -1), scaled(c, -1)};
+    for (TestDraw* batch : {&front, &back, &scales, &square, &behind})
       batch->state.fill_rule = static_cast<FillRule>(rule);
     EXPECT_EQ(counts(front, 3, 3), rows);
     EXPECT_EQ(counts(back, 3, 3), rows);
@@ -140,9 +140,9 @@ TEST(Oracle, TiesOfAllFillRules) {
 }
 
 TEST(Oracle, VertexBehindTheEyeOrAtInfinity) {
-  Batch behind{{1, 0, 0, 1}, {3, 0, 0, 1}, {-2, 2, 0, -1}};  // seen: y >= 0, 1 - y/2 <= x <= 3 + y/2
+  TestDraw behind{{1, 0, 0, 1}, {3, 0, 0, 1}, {-2, 2, 0, -1}};  // seen: y >= 0, 1 - y/2 <= x <= 3 + y/2
   EXPECT_EQ(counts(behind, 4, 3), (Rows{".11.", "1111", "1111"}));
-  Batch infinite{{1, 1, 0, 1}, {3, 1, 0, 1}, {0, 1, 0, 0}};  // seen: y >= 1, 1 <= x <= 3
+  TestDraw infinite{{1, 1, 0, 1}, {3, 1, 0, 1}, {0, 1, 0, 0}};  // seen: y >= 1, 1 <= x <= 3
   EXPECT_EQ(counts(infinite, 4, 3), (Rows{"....", ".11.", ".11."}));
 }
 
@@ -157,7 +157,7 @@ TEST(Oracle, Octants) {
     const float det = v[0].x * (v[1].y * v[2].w - v[1].w * v[2].y) + v[0].y * (v[1].w * v[2].x - v[1].x * v[2].w) +
                       v[0].w * (v[1].x * v[2].y - v[1].y * v[2].x);
     if (det == 0) continue;
-    Batch batch{};
+    TestDraw batch{};
     for (int octant = 0; octant < 8; ++octant) {
       for (int i = 0; i < 3; ++i) batch.vertices.push_back(scaled(v[i], (octant >> i & 1) != 0 ? -1.0f : 1.0f));
     }
@@ -176,7 +176,7 @@ TEST(Oracle, CoverageIsItsDefinition) {
   std::uniform_int_distribution<int> position(-8, 40), weight(-2, 2);
   for (int round = 0; round < 1000; ++round) {
     std::int64_t m[3][3];
-    Batch batch{};
+    TestDraw batch{};
     for (auto& v : m) {
       v[2] = weight(random), v[0] = position(random), v[1] = position(random);
       batch.vertices.push_back(
@@ -210,12 +210,12 @@ TEST(Oracle, CoverageIsItsDefinition) {
 
 TEST(Oracle, DegenerateAndDropped) {
   const Vertex a{0, 0, 0, 1}, b{8, 0, 0, 1}, c{0, 8, 0, 1};
-  Batch line{a, b, {4, 0, 0, 1}, a, a, c, {0, 0, 0, 0}, b, c};
+  TestDraw line{a, b, {4, 0, 0, 1}, a, a, c, {0, 0, 0, 0}, b, c};
   EXPECT_EQ(counts(line, 2, 2), (Rows{"..", ".."}));  // C1
   for (const float bad : {kNaN, kInfinity, -kInfinity}) {
-    Batch positions{a, b, {0, 8, bad, 1}, a, b, {0, 8, 0, bad}, a, b, {bad, 8, 0, 1}, a, {8, bad, 0, 1}, c, a, b, c};
+    TestDraw positions{a, b, {0, 8, bad, 1}, a, b, {0, 8, 0, bad}, a, b, {bad, 8, 0, 1}, a, {8, bad, 0, 1}, c, a, b, c};
     EXPECT_EQ(counts(positions, 2, 2), (Rows{"11", "11"}));  // B1, also in Z
-    Batch attributes{a, b, c, a, b, c};
+    TestDraw attributes{a, b, c, a, b, c};
     attributes.attribute({0, bad, 0, 0, 0, 0});
     EXPECT_EQ(counts(attributes, 2, 2), (Rows{"11", "11"}));  // in an array that is not asked for
   }
@@ -226,7 +226,7 @@ TEST(Oracle, CullingAndFacing) {
   for (const bool reversed : {false, true}) {
     for (const FrontFace face : {FrontFace::clockwise, FrontFace::counter_clockwise}) {
       for (const Cull cull : {Cull::none, Cull::front, Cull::back}) {
-        Batch batch = reversed ? Batch{a, c, b} : Batch{a, b, c};  // D > 0 if not reversed
+        TestDraw batch = reversed ? TestDraw{a, c, b} : TestDraw{a, b, c};  // D > 0 if not reversed
         batch.state.front_face = face, batch.state.cull = cull;
         const bool front = reversed == (face == FrontFace::counter_clockwise);
         const bool drawn = cull == Cull::none || cull == (front ? Cull::back : Cull::front);
@@ -237,7 +237,7 @@ TEST(Oracle, CullingAndFacing) {
 }
 
 TEST(Oracle, DepthIsRoundedOnce) {
-  const auto depths = [](Batch batch, DepthMode mode = DepthMode::none) {
+  const auto depths = [](TestDraw batch, DepthMode mode = DepthMode::none) {
     Picture picture(4, 1);
     batch.state.depth_mode = mode;
     picture.render(batch);
@@ -251,7 +251,7 @@ TEST(Oracle, DepthIsRoundedOnce) {
   EXPECT_EQ(bits(negative[0]), 0u);  // +0
   EXPECT_EQ(bits(depths(flat_triangle(-0.0f))[0]), 0u);
   for (const float sign : {1.0f, -1.0f}) {  // beyond range
-    Batch far{{-8, -8, sign * kLargest, 0.5f}, {32, -8, sign * kLargest, 0.5f}, {-8, 32, sign * kLargest, 0.5f}};
+    TestDraw far{{-8, -8, sign * kLargest, 0.5f}, {32, -8, sign * kLargest, 0.5f}, {-8, 32, sign * kLargest, 0.5f}};
     EXPECT_EQ(depths(far)[0], sign * kLargest);
   }
   // A quotient that is no dyadic number.
@@ -259,7 +259,7 @@ TEST(Oracle, DepthIsRoundedOnce) {
 }
 
 TEST(Oracle, DepthClipAndClampAreExact) {
-  const auto clip = [](Batch batch, int width = 4) {
+  const auto clip = [](TestDraw batch, int width = 4) {
     batch.state.depth_mode = DepthMode::clip;
     const Rows alone = counts(batch, width, 1);
     Picture picture(width, 1);
@@ -272,7 +272,7 @@ TEST(Oracle, DepthClipAndClampAreExact) {
   EXPECT_EQ(clip(ramp(1 - kUlp, 1 + kUlp * 15)), "1...");  // 1, 1 + 2 ulp, ...
   EXPECT_EQ(clip(ramp(1, 1 + kUlp)), "....");              // 1 + ulp / 16 rounds to 1, and is beyond
   EXPECT_EQ(clip(ramp(0, -kTiny)), "....");                // rounds to 0, and is before
-  Batch clamped = ramp(-1.5f, 6.5f);                       // z = -1, 0, 1, 2
+  TestDraw clamped = ramp(-1.5f, 6.5f);                    // z = -1, 0, 1, 2
   clamped.state.depth_mode = DepthMode::clamp;
   Picture picture(4, 1);
   picture.render(clamped);
@@ -283,9 +283,9 @@ TEST(Oracle, DepthClipAndClampAreExact) {
 TEST(Oracle, VisibilityIsLexicographic) {
   const auto winner = [](std::vector<std::array<float, 2>> ramps, std::vector<std::uint32_t> identifiers,
                          DepthTest test) {
-    Batch all{};
+    TestDraw all{};
     for (const auto& [a, b] : ramps) {
-      const Batch one = ramp(a, b);
+      const TestDraw one = ramp(a, b);
       all.vertices.insert(all.vertices.end(), one.vertices.begin(), one.vertices.end());
     }
     all.indices.resize(all.vertices.size());
@@ -313,7 +313,7 @@ TEST(Oracle, InitialDepthIsBeatenStrictly) {
     picture.target.depth_test = test;
     const std::vector<float> initial = {kNaN, 0.5f, 0.25f, 1, kInfinity, -kInfinity, -0.0f};
     picture.start_from(initial);
-    Batch batch = flat_triangle(0.5f);
+    TestDraw batch = flat_triangle(0.5f);
     batch.state.first_index = 3;
     picture.render(batch);
     for (std::size_t n = 0; n < 7; ++n) {
@@ -326,7 +326,7 @@ TEST(Oracle, InitialDepthIsBeatenStrictly) {
   }
   Picture zero(1, 1);  // +0 does not beat -0
   zero.start_from({-0.0f});
-  Batch batch = flat_triangle(0);
+  TestDraw batch = flat_triangle(0);
   zero.render(batch);
   EXPECT_EQ(zero.index[0], kNoTriangle);
   EXPECT_EQ(bits(zero.depth[0]), bits(-0.0f));
@@ -340,8 +340,8 @@ TEST(Oracle, InitialDepthIsBeatenStrictly) {
 }
 
 TEST(Oracle, DepthWriteOffAndSeveralDraws) {
-  Batch three = flat_triangle(0.25f), behind = flat_triangle(0.75f), level = flat_triangle(0.5f);
-  for (Batch* other : {&behind, &level})
+  TestDraw three = flat_triangle(0.25f), behind = flat_triangle(0.75f), level = flat_triangle(0.5f);
+  for (TestDraw* other : {&behind, &level})
     three.vertices.insert(three.vertices.end(), other->vertices.begin(), other->vertices.end());
   three.indices = {0, 1, 2, 3, 4, 5, 6, 7, 8};
   three.state.depth_write = false;
@@ -361,7 +361,7 @@ TEST(Oracle, DepthWriteOffAndSeveralDraws) {
   level.state.first_index = 20;
   EXPECT_EQ(image({three.draw(), level.draw()}, {}), Result(20, 0.5f));
   EXPECT_EQ(image({level.draw(), three.draw()}, {}), Result(7, 0.5f));  // tested against what the first draw left
-  Batch again = flat_triangle(0.5f);
+  TestDraw again = flat_triangle(0.5f);
   again.state.first_index = 30;
   EXPECT_EQ(image({level.draw(), again.draw()}, {}), Result(20, 0.5f));  // V3: strictly
   Picture picture(1, 1);
@@ -372,7 +372,7 @@ TEST(Oracle, DepthWriteOffAndSeveralDraws) {
 TEST(Oracle, BarycentricsAndAttributes) {
   // Projected (0, 0), (8, 0), (0, 8) with W = 1, 2, 4: at (1/2, 1/2) the weights are 56, 2 and 1 of 59.
   const auto drawn = [](Interpolation interpolation, std::vector<float> values) {
-    Batch batch{{0, 0, 0, 1}, {16, 0, 2, 2}, {0, 32, 8, 4}};
+    TestDraw batch{{0, 0, 0, 1}, {16, 0, 2, 2}, {0, 32, 8, 4}};
     batch.attribute(std::move(values), interpolation);
     Picture picture(1, 1, 1, true);
     picture.render(batch);
@@ -394,7 +394,7 @@ TEST(Oracle, BarycentricsAndAttributes) {
 
 TEST(Oracle, NoperspectiveBeyondRangeIsTheLargest) {
   // One vertex behind the eye: affine values grow without bound.
-  Batch batch{{0, 0, 0, 1}, {8, 0, 0, 1}, {0, 8, 0, -1}};
+  TestDraw batch{{0, 0, 0, 1}, {8, 0, 0, 1}, {0, 8, 0, -1}};
   batch.attribute({0, 0, -kLargest}, Interpolation::noperspective);
   Picture picture(1, 20, 1, true);
   picture.render(batch);
@@ -404,7 +404,7 @@ TEST(Oracle, NoperspectiveBeyondRangeIsTheLargest) {
 }
 
 TEST(Oracle, ScissorAndCullingBox) {
-  Batch batch = flat_triangle(0);
+  TestDraw batch = flat_triangle(0);
   batch.state.scissor = Scissor{1, -5, 3, 2};
   EXPECT_EQ(counts(batch, 4, 3), (Rows{".11.", ".11.", "...."}));
   batch.state.culling_box.emplace();  // all corners alike: a broken promise, and ignored
@@ -438,8 +438,8 @@ TEST(Oracle, SamplePatterns) {
                                              {14, 15},
                                              {1, 0}}};
   for (const auto& pattern : patterns) {
-    Batch along_x{{-8, -8, -128, 1}, {24, -8, 384, 1}, {-8, 24, -128, 1}};  // z = 16 x
-    Batch along_y{{-8, -8, -128, 1}, {24, -8, -128, 1}, {-8, 24, 384, 1}};  // z = 16 y
+    TestDraw along_x{{-8, -8, -128, 1}, {24, -8, 384, 1}, {-8, 24, -128, 1}};  // z = 16 x
+    TestDraw along_y{{-8, -8, -128, 1}, {24, -8, -128, 1}, {-8, 24, 384, 1}};  // z = 16 y
     Picture x(2, 1, static_cast<int>(pattern.size())), y(1, 2, static_cast<int>(pattern.size()));
     x.render(along_x);
     y.render(along_y);
@@ -453,7 +453,7 @@ TEST(Oracle, SamplePatterns) {
 }
 
 TEST(Oracle, AttributesOncePerPixel) {
-  const auto drawn = [](Batch batch, AttributeLocation location, const char* covered) {
+  const auto drawn = [](TestDraw batch, AttributeLocation location, const char* covered) {
     Picture picture(1, 1, 4, true);
     picture.target.attribute_location = location;
     picture.render(batch);
@@ -471,7 +471,7 @@ TEST(Oracle, AttributesOncePerPixel) {
   };
   // Right-angled at (x, y), towards the left and down; the attribute is 16 x.
   const auto corner = [](float x, float y) {
-    Batch batch{{x, y, 0, 1}, {x, y + 64, 0, 1}, {x - 64, y, 0, 1}};
+    TestDraw batch{{x, y, 0, 1}, {x, y + 64, 0, 1}, {x - 64, y, 0, 1}};
     batch.attribute({16 * x, 16 * x, 16 * (x - 64)});
     return batch;
   };
@@ -482,8 +482,8 @@ TEST(Oracle, AttributesOncePerPixel) {
   EXPECT_EQ(drawn(corner(0.5f, -1), AttributeLocation::centroid, "1.1."), 6);  // the centre's tie is lost
   // By coverage alone: samples of smaller number may be hidden.
   {
-    Batch near{{-64, -64, -1, 1}, {64, -64, -1, 1}, {0.375f, 0.25f, -1, 1}};  // covers sample 0 only
-    Batch far = corner(0.40625f, -1);
+    TestDraw near{{-64, -64, -1, 1}, {64, -64, -1, 1}, {0.375f, 0.25f, -1, 1}};  // covers sample 0 only
+    TestDraw far = corner(0.40625f, -1);
     far.vertices.insert(far.vertices.end(), near.vertices.begin(), near.vertices.end());
     far.indices = {0, 1, 2, 3, 4, 5};
     far.values[0].resize(6, 100.0f);
@@ -494,46 +494,46 @@ TEST(Oracle, AttributesOncePerPixel) {
     EXPECT_EQ(picture.attribute, (std::vector<float>{100, 0, 6, 0}));
   }
   // 1/w = 7/16 - x is negative at the centre, so it can't serve; w at sample 0 is 16.
-  Batch horizon{{13, -32, 0, 32}, {13, 64, 0, 32}, {-0.5625f, 0.5f, 0, 1}};
+  TestDraw horizon{{13, -32, 0, 32}, {13, 64, 0, 32}, {-0.5625f, 0.5f, 0, 1}};
   horizon.attribute({32, 32, 1});
   EXPECT_EQ(drawn(horizon, AttributeLocation::centre, "1.1."), 16);
   EXPECT_EQ(drawn(horizon, AttributeLocation::centroid, "1.1."), 16);
 }
 
 TEST(Oracle, ConservativeOverAndInner) {
-  const auto drawn = [](Batch batch, Conservative mode, int width, int height) {
+  const auto drawn = [](TestDraw batch, Conservative mode, int width, int height) {
     batch.state.conservative = mode;
     return counts(batch, width, height);
   };
-  const Batch inside{{1.25f, 1.25f, 0, 1}, {1.75f, 1.25f, 0, 1}, {1.25f, 1.75f, 0, 1}};  // within one pixel
+  const TestDraw inside{{1.25f, 1.25f, 0, 1}, {1.75f, 1.25f, 0, 1}, {1.25f, 1.75f, 0, 1}};  // within one pixel
   EXPECT_EQ(drawn(inside, Conservative::over, 3, 3), (Rows{"...", ".1.", "..."}));
   EXPECT_EQ(drawn(inside, Conservative::inner, 3, 3), (Rows{"...", "...", "..."}));
   // A tip that points at pixel (2, 2), whose square no single edge excludes.
-  const Batch tip{{0, 0.125f, 0, 1}, {0.125f, 0, 0, 1}, {1.875f, 1.875f, 0, 1}};
+  const TestDraw tip{{0, 0.125f, 0, 1}, {0.125f, 0, 0, 1}, {1.875f, 1.875f, 0, 1}};
   EXPECT_EQ(drawn(tip, Conservative::over, 4, 4), (Rows{"11..", "11..", "....", "...."}));
-  const Batch touching{
+  const TestDraw touching{
       {0, 0.125f, 0, 1}, {0.125f, 0, 0, 1}, {2, 2, 0, 1}};  // closed squares that share one point with T
   EXPECT_EQ(drawn(touching, Conservative::over, 4, 4), (Rows{"11..", "111.", ".11.", "...."}));
   // The needle crosses squares without a corner of either inside the other.
-  const Batch needle{{-1, 1.5f, 0, 1}, {5, 1.375f, 0, 1}, {5, 1.625f, 0, 1}};
+  const TestDraw needle{{-1, 1.5f, 0, 1}, {5, 1.375f, 0, 1}, {5, 1.625f, 0, 1}};
   EXPECT_EQ(drawn(needle, Conservative::over, 4, 3), (Rows{"....", "1111", "...."}));
-  const Batch square{{1, 1, 0, 1}, {5, 1, 0, 1}, {1, 5, 0, 1}};
+  const TestDraw square{{1, 1, 0, 1}, {5, 1, 0, 1}, {1, 5, 0, 1}};
   EXPECT_EQ(drawn(square, Conservative::inner, 5, 5), (Rows{".....", ".111.", ".11..", ".1...", "....."}));
   EXPECT_EQ(drawn(square, Conservative::over, 6, 6),
             (Rows{"111111", "111111", "11111.", "1111..", "111...", "11...."}));
   // Seen: y >= 0, 2 - y/2 <= x <= 4 + y/2, a vertex behind the eye.
-  const Batch behind{{2, 0, 0, 1}, {4, 0, 0, 1}, {-3, 2, 0, -1}};
+  const TestDraw behind{{2, 0, 0, 1}, {4, 0, 0, 1}, {-3, 2, 0, -1}};
   EXPECT_EQ(drawn(behind, Conservative::over, 6, 3), (Rows{".1111.", "111111", "111111"}));
   EXPECT_EQ(drawn(behind, Conservative::inner, 6, 3), (Rows{"..11..", "..11..", ".1111."}));
   // Seen: 2 <= x <= 4, y >= 1, a vertex at infinity.
-  const Batch infinite{{2, 1, 0, 1}, {4, 1, 0, 1}, {0, 1, 0, 0}};
+  const TestDraw infinite{{2, 1, 0, 1}, {4, 1, 0, 1}, {0, 1, 0, 0}};
   EXPECT_EQ(drawn(infinite, Conservative::over, 6, 3), (Rows{".1111.", ".1111.", ".1111."}));
   EXPECT_EQ(drawn(infinite, Conservative::inner, 6, 3), (Rows{"......", "..11..", "..11.."}));
-  const Batch line{{0, 0, 0, 1}, {2, 2, 0, 1}, {4, 4, 0, 1}};
+  const TestDraw line{{0, 0, 0, 1}, {2, 2, 0, 1}, {4, 4, 0, 1}};
   EXPECT_EQ(drawn(line, Conservative::over, 2, 2), (Rows{"..", ".."}));  // D = 0
 }
 
-Batch snapped(Batch batch, int grid_bits, GridRounding rounding, int offset_x = 0) {
+TestDraw snapped(TestDraw batch, int grid_bits, GridRounding rounding, int offset_x = 0) {
   batch.state.grid = Grid{grid_bits, offset_x, 0, rounding};
   return batch;
 }
@@ -542,7 +542,7 @@ TEST(Oracle, GridRoundings) {
   // The quadrilateral left <= x <= right, from far above to far below, on whole pixels.
   const auto drawn = [](float left, float right, GridRounding rounding, int offset_x = 0) {
     const Vertex a{left, -10, 0, 1}, b{right, -10, 0, 1}, c{right, 10, 0, 1}, d{left, 10, 0, 1};
-    Batch batch = snapped({a, b, c, a, c, d}, 0, rounding, offset_x);
+    TestDraw batch = snapped({a, b, c, a, c, d}, 0, rounding, offset_x);
     return counts(batch, 6, 1)[0];
   };
   EXPECT_EQ(drawn(1.5f, 4.5f, GridRounding::nearest_even), "..11..");
@@ -563,7 +563,7 @@ TEST(Oracle, GridRoundings) {
 
 TEST(Oracle, GridOfDegenerateTriangles) {
   // Collinear, but (3, 1.5) goes to (3, 2): N = -1 at two samples.
-  Batch batch = snapped({{0, 0, 0.75f, 1}, {3, 1.5f, 0.5f, 1}, {6, 3, 0.25f, 1}}, 0, GridRounding::nearest_even);
+  TestDraw batch = snapped({{0, 0, 0.75f, 1}, {3, 1.5f, 0.5f, 1}, {6, 3, 0.25f, 1}}, 0, GridRounding::nearest_even);
   batch.attribute({5, 6, 7});
   Picture picture(6, 3, 1, true);
   picture.render(batch);
@@ -577,22 +577,22 @@ TEST(Oracle, GridOfDegenerateTriangles) {
   batch.state.cull = Cull::front;
   EXPECT_EQ(counts(batch, 6, 3), (Rows{"......", "..1...", "....1."}));
   // G1: hulls that contain the eye: on a side, at a vertex, and inside.
-  Batch eye = snapped({{1, 1, 0, 1},
-                       {-2, -2, 0, -2},
-                       {5, 1, 0, 1},
-                       {0, 0, 0, 0},
-                       {5, 1, 0, 1},
-                       {1, 5, 0, 1},
-                       {1, 1, 0, 1},
-                       {3, 1, 0, 1},
-                       {-4, -2, 0, -2}},
-                      0, GridRounding::nearest_even);
+  TestDraw eye = snapped({{1, 1, 0, 1},
+                          {-2, -2, 0, -2},
+                          {5, 1, 0, 1},
+                          {0, 0, 0, 0},
+                          {5, 1, 0, 1},
+                          {1, 5, 0, 1},
+                          {1, 1, 0, 1},
+                          {3, 1, 0, 1},
+                          {-4, -2, 0, -2}},
+                         0, GridRounding::nearest_even);
   EXPECT_EQ(counts(eye, 6, 3), (Rows{"......", "......", "......"}));
 }
 
 TEST(Oracle, GridClampsDepthAndWeights) {
   // Offset 1/2 on whole pixels: x = 0.625 goes to 0.5, so a sample outside the unsnapped triangle is covered.
-  Batch batch =
+  TestDraw batch =
       snapped({{0.625f, -8, 0.5f, 1}, {8.5f, -8, 1, 1}, {0.625f, 32, 0.5f, 1}}, 0, GridRounding::nearest_even, 8);
   batch.attribute({3, 100, 3});
   Picture picture(2, 1, 1, true);
@@ -607,13 +607,13 @@ TEST(Oracle, GridClampsDepthAndWeights) {
 TEST(Oracle, GridGuardBand) {
   // The edge y = 2.5 + x / 16385 is cut where x is -16385 and 16385, at y = 1.5 and 3.5, and only then snapped.
   const Vertex a{-32770, 0.5f, 0, 1}, b{32770, 4.5f, 0, 1}, c{0, 1000, 0, 1};
-  Batch even = snapped({a, b, c}, 0, GridRounding::nearest_even),
-        truncate = snapped({a, b, c}, 0, GridRounding::truncate);
+  TestDraw even = snapped({a, b, c}, 0, GridRounding::nearest_even),
+           truncate = snapped({a, b, c}, 0, GridRounding::truncate);
   EXPECT_EQ(counts(even, 2, 5), (Rows{"..", "..", "..", "11", "11"}));      // from y = 3 at x = 0
   EXPECT_EQ(counts(truncate, 2, 5), (Rows{"..", "..", "11", "11", "11"}));  // from y = 2
-  Batch behind = snapped({{1, 0, 0, 1}, {3, 0, 0, 1}, {-2, 2, 0, -1}}, 8, GridRounding::nearest_even);
+  TestDraw behind = snapped({{1, 0, 0, 1}, {3, 0, 0, 1}, {-2, 2, 0, -1}}, 8, GridRounding::nearest_even);
   EXPECT_EQ(counts(behind, 4, 3), (Rows{".11.", "1111", "1111"}));
-  Batch infinite = snapped({{1, 1, 0, 1}, {3, 1, 0, 1}, {0, 1, 0, 0}}, 8, GridRounding::nearest_even);
+  TestDraw infinite = snapped({{1, 1, 0, 1}, {3, 1, 0, 1}, {0, 1, 0, 0}}, 8, GridRounding::nearest_even);
   EXPECT_EQ(counts(infinite, 4, 3), (Rows{"....", ".11.", ".11."}));
 }
 
@@ -648,7 +648,7 @@ TEST(Oracle, ViewportMap) {
 TEST(Oracle, ThreadsChangeNothing) {
   std::mt19937 random(3);
   std::uniform_int_distribution<int> number(-100, 100);
-  Batch batch{};
+  TestDraw batch{};
   for (std::uint32_t n = 0; n < 60; ++n) {
     const auto next = [&] { return static_cast<float>(number(random)); };
     batch.vertices.push_back({next(), next(), next(), next() / 16});
@@ -667,7 +667,7 @@ TEST(Oracle, ThreadsChangeNothing) {
 }
 
 TEST(Oracle, CallersRoundingModeChangesNothing) {
-  Batch batch{{0.1f, 0.1f, 0.3f, 0.7f}, {9.3f, 0.2f, 0.9f, 1.1f}, {-0.3f, -8.7f, 0.1f, -0.9f}};
+  TestDraw batch{{0.1f, 0.1f, 0.3f, 0.7f}, {9.3f, 0.2f, 0.9f, 1.1f}, {-0.3f, -8.7f, 0.1f, -0.9f}};
   Picture expected(8, 8);
   expected.render(batch);
   for (const int mode : {FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO}) {

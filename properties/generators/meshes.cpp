@@ -15,7 +15,7 @@
 #include <string>
 #include <utility>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 
@@ -73,11 +73,11 @@ std::optional<Exhibit> exhibit_of(const Property& property, const corpus::Scene&
   return std::move(shown.found);
 }
 
-std::optional<corpus::Image> Check::draw(const corpus::Scene& scene, const corpus::Outputs& outputs) {
+std::optional<corpus::Image> Trial::draw(const corpus::Scene& scene, const corpus::Outputs& outputs) {
   return draw_over(0, scene, outputs);
 }
 
-std::optional<corpus::Image> Check::draw_over(std::uint32_t garbage, const corpus::Scene& scene,
+std::optional<corpus::Image> Trial::draw_over(std::uint32_t garbage, const corpus::Scene& scene,
                                               const corpus::Outputs& outputs) {
   corpus::Frame frame(scene, outputs);
   if (garbage != 0) {
@@ -92,7 +92,7 @@ std::optional<corpus::Image> Check::draw_over(std::uint32_t garbage, const corpu
   return image_of(frame, frame.draws());
 }
 
-std::optional<corpus::Image> Check::draw_changed(const corpus::Scene& scene, const corpus::Outputs& outputs,
+std::optional<corpus::Image> Trial::draw_changed(const corpus::Scene& scene, const corpus::Outputs& outputs,
                                                  const DrawChange& change) {
   corpus::Frame frame(scene, outputs);
   std::vector<Draw> draws(frame.draws().begin(), frame.draws().end());
@@ -100,7 +100,7 @@ std::optional<corpus::Image> Check::draw_changed(const corpus::Scene& scene, con
   return image_of(frame, draws);
 }
 
-std::optional<corpus::Image> Check::image_of(corpus::Frame& frame, std::span<const Draw> draws) {
+std::optional<corpus::Image> Trial::image_of(corpus::Frame& frame, std::span<const Draw> draws) {
   const Status status = renderer_(frame.target(), draws);
   if (status != Status::ok) {
     differs("the renderer returned \"" + std::string(status_text(status)) + "\"");
@@ -112,7 +112,7 @@ std::optional<corpus::Image> Check::image_of(corpus::Frame& frame, std::span<con
 
 // A pixel that was looked at, with its covers, or with those of the last image where `output` is another than the
 // count.
-void Check::show_pixel(std::string_view what, const char* output, int x, int y, std::uint32_t expected,
+void Trial::show_pixel(std::string_view what, const char* output, int x, int y, std::uint32_t expected,
                        std::uint32_t actual, bool differs) {
   const bool found = showing->found || showing->found_page != nullptr;
   auto at = showing->pages.find(what);
@@ -141,16 +141,16 @@ void Check::show_pixel(std::string_view what, const char* output, int x, int y, 
   showing->found_page = &page;
 }
 
-void Check::differs(const std::string& finding) {
+void Trial::differs(const std::string& finding) {
   if (verdict_.differences++ == 0) verdict_.finding = finding;
 }
 
-void Check::differs(std::string_view what, int x, int y, const std::string& expected, const std::string& actual) {
+void Trial::differs(std::string_view what, int x, int y, const std::string& expected, const std::string& actual) {
   if (showing != nullptr) show_pixel(what, "values", x, y, 0, 0, true);
   add_difference(what, x, y, expected, actual);
 }
 
-void Check::add_difference(std::string_view what, int x, int y, const std::string& expected,
+void Trial::add_difference(std::string_view what, int x, int y, const std::string& expected,
                            const std::string& actual) {
   if (verdict_.differences != 0) {
     ++verdict_.differences;
@@ -160,27 +160,27 @@ void Check::add_difference(std::string_view what, int x, int y, const std::strin
           ", got " + actual);
 }
 
-void Check::expect_count(std::string_view what, int x, int y, std::uint32_t expected, std::uint32_t actual) {
+void Trial::expect_count(std::string_view what, int x, int y, std::uint32_t expected, std::uint32_t actual) {
   if (showing != nullptr) show_pixel(what, "count", x, y, expected, actual, expected != actual);
   if (expected != actual) add_difference(what, x, y, std::to_string(expected), std::to_string(actual));
 }
 
-void Check::expect_index(std::string_view what, int x, int y, std::uint32_t expected, std::uint32_t actual) {
+void Trial::expect_index(std::string_view what, int x, int y, std::uint32_t expected, std::uint32_t actual) {
   if (showing != nullptr) show_pixel(what, "index", x, y, 0, 0, expected != actual);
   if (expected != actual) add_difference(what, x, y, index_text(expected), index_text(actual));
 }
 
-void Check::expect_at_most(std::string_view what, int x, int y, std::uint32_t most, std::uint32_t actual) {
+void Trial::expect_at_most(std::string_view what, int x, int y, std::uint32_t most, std::uint32_t actual) {
   if (showing != nullptr) show_pixel(what, "count", x, y, std::min(most, actual), actual, actual > most);
   if (actual > most) add_difference(what, x, y, "at most " + std::to_string(most), std::to_string(actual));
 }
 
-void Check::expect_bits(std::string_view what, int x, int y, float expected, float actual) {
+void Trial::expect_bits(std::string_view what, int x, int y, float expected, float actual) {
   if (std::bit_cast<std::uint32_t>(expected) != std::bit_cast<std::uint32_t>(actual))
     differs(what, x, y, text(expected), text(actual));
 }
 
-void Check::expect_same(std::string_view what, const corpus::Scene& scene, const corpus::Image& expected,
+void Trial::expect_same(std::string_view what, const corpus::Scene& scene, const corpus::Image& expected,
                         const corpus::Image& actual, const Correspondence& correspondence) {
   const auto samples = static_cast<std::size_t>(expected.samples);
   std::string named(what);
@@ -237,7 +237,7 @@ void Check::expect_same(std::string_view what, const corpus::Scene& scene, const
   if (shows && !shown.output.empty()) showing->found = std::move(shown);
 }
 
-void Check::expect_parts(std::string_view what, const corpus::Scene& scene, const Scissor& rectangle,
+void Trial::expect_parts(std::string_view what, const corpus::Scene& scene, const Scissor& rectangle,
                          const corpus::Image& inside, const corpus::Image& outside, const corpus::Image& actual) {
   Correspondence in, out;
   in.where = [&](int x, int y) {
@@ -249,7 +249,7 @@ void Check::expect_parts(std::string_view what, const corpus::Scene& scene, cons
   expect_same("outside of " + name, scene, outside, actual, out);
 }
 
-std::optional<Check::Facings> Check::draw_facings(const corpus::Scene& scene) {
+std::optional<Trial::Facings> Trial::draw_facings(const corpus::Scene& scene) {
   corpus::Scene front = scene, back = scene;
   for (corpus::SceneDraw& draw : front.draws) draw.cull = Cull::back;
   for (corpus::SceneDraw& draw : back.draws) draw.cull = Cull::front;

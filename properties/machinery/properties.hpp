@@ -18,7 +18,7 @@
 namespace surefill::properties {
 
 // How one case came out.
-struct Verdict {
+struct TrialResult {
   std::uint64_t samples = 0;      // samples looked at
   std::uint64_t differences = 0;  // 0: the claim holds on this case
   std::string finding;            // one line: what was expected, what came; empty if it holds
@@ -35,7 +35,7 @@ struct Property {
   std::uint64_t
       exhaustive;  // 0: sampled by seed; else cases are numbered 0 .. exhaustive - 1 and that is all there are
   corpus::Scene (*make)(std::uint64_t seed_or_number);
-  Verdict (*decide)(const corpus::Scene& scene, const Renderer& renderer);
+  TrialResult (*decide)(const corpus::Scene& scene, const Renderer& renderer);
   bool holds_under_grid = false;  // also with one Grid, whatever it is, on every draw of the case
 };
 

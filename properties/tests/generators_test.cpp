@@ -12,7 +12,7 @@
 #include <string_view>
 
 #include "properties/generators/near_zero.hpp"
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -104,8 +104,8 @@ Share covering(const Category& c) {
   const Renderer engine = engine_renderer();
   for (std::uint64_t seed = 0; seed < 400; ++seed) {
     Random random(seed);
-    Check check(engine);
-    const auto image = check.draw(triangle_scene(12, 9, c.triangle(random, 12, 9)), kCountOnly);
+    Trial trial(engine);
+    const auto image = trial.draw(triangle_scene(12, 9, c.triangle(random, 12, 9)), kCountOnly);
     share.covering += std::any_of(image->count.begin(), image->count.end(), [](std::uint32_t n) { return n != 0; });
     ++share.cases;
   }

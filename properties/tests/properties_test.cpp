@@ -16,8 +16,8 @@
 #include <utility>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
 #include "properties/machinery/reduce.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 
@@ -57,7 +57,7 @@ rc::Gen<Case> scenes(const Make& make, bool simplifies) {
   });
 }
 
-std::string report(const std::string& name, const std::string& claim, const Verdict& verdict,
+std::string report(const std::string& name, const std::string& claim, const TrialResult& verdict,
                    const corpus::Scene& scene) {
   std::ostringstream out;
   out << name << ": " << claim << "\n"
@@ -78,7 +78,7 @@ void check_scenes(const rc::Gen<Case>& cases, int hundreds, const std::string& n
   const auto result = rc::detail::checkTestable(
       [&] {
         const Case drawn = *cases;
-        const Verdict verdict = decide(drawn.scene);
+        const TrialResult verdict = decide(drawn.scene);
         if (verdict.differences != 0) RC_FAIL(report(name, claim, verdict, drawn.scene));
       },
       metadata, params);
@@ -137,12 +137,12 @@ TEST_P(OraclesAgree, OnRandomScenes) {
     limits.samples = limits.grid = limits.conservative = true;
     return random_scene(category, n, limits);
   };
-  check_scenes(scenes(make, true), 5, category.name, "the oracle and the clipped oracle draw the same image",
-               [](const corpus::Scene& scene) {
-                 const Comparison c =
-                     compare(scene, oracle_renderer(), clipped_oracle_renderer(), outputs_of(scene), 1);
-                 return Verdict{c.samples, c.differences, c.first.empty() ? "" : describe(c.first[0], scene.samples)};
-               });
+  check_scenes(
+      scenes(make, true), 5, category.name, "the oracle and the clipped oracle draw the same image",
+      [](const corpus::Scene& scene) {
+        const Comparison c = compare(scene, oracle_renderer(), clipped_oracle_renderer(), outputs_of(scene), 1);
+        return TrialResult{c.samples, c.differences, c.first.empty() ? "" : describe(c.first[0], scene.samples)};
+      });
 }
 
 std::vector<const Category*> pointers_to_categories() {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -37,14 +37,14 @@ Scissor common(const Scissor& a, const Scissor& b) {
 }
 
 // M3. The tiles tile the target; each keeps what the draws' own scissors leave of it.
-Verdict decide_tiles(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_tiles(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   Random random = random_of(scene);
   const corpus::Outputs outputs = outputs_of(scene);
   corpus::Scene nothing = scene;
   for (corpus::SceneDraw& draw : nothing.draws) draw.triangles.clear();
-  const auto whole = check.draw(scene, outputs), empty = check.draw(nothing, outputs);
-  if (!whole || !empty) return check.verdict();
+  const auto whole = trial.draw(scene, outputs), empty = trial.draw(nothing, outputs);
+  if (!whole || !empty) return trial.verdict();
   const auto cuts = [&](int size) {
     std::vector<int> at{0};
     while (at.back() < size) at.push_back(std::min(size, at.back() + random.between(1, 8)));
@@ -56,22 +56,22 @@ Verdict decide_tiles(const corpus::Scene& scene, const Renderer& renderer) {
       const Scissor tile{xs[i], ys[j], xs[i + 1], ys[j + 1]};
       corpus::Scene part = scene;
       for (corpus::SceneDraw& draw : part.draws) draw.scissor = draw.scissor ? common(*draw.scissor, tile) : tile;
-      const auto image = check.draw(part, outputs);
-      if (!image) return check.verdict();
-      check.expect_parts("the tile", scene, tile, *whole, *empty, *image);
+      const auto image = trial.draw(part, outputs);
+      if (!image) return trial.verdict();
+      trial.expect_parts("the tile", scene, tile, *whole, *empty, *image);
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // S1: a larger target adds pixels and changes none.
-Verdict decide_target_size(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_target_size(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   Random random = random_of(scene);
   corpus::Scene small = scene;
   if (small.initial_depth.size() > 1) small.initial_depth = {small.initial_depth[0]};
   constexpr int kMore[] = {0, 1, 7, 8, 56, 64, 130};
   const corpus::Outputs outputs = outputs_of(small);
-  const auto expected = check.draw(small, outputs);
+  const auto expected = trial.draw(small, outputs);
   for (int attempt = 0; attempt < 2 && expected; ++attempt) {
     corpus::Scene large = small;
     large.width += kMore[random.below(7)];
@@ -80,16 +80,16 @@ Verdict decide_target_size(const corpus::Scene& scene, const Renderer& renderer)
       large.width = small.width + 2048;
       large.height = small.height;
     }
-    if (const auto actual = check.draw(large, outputs))
-      check.expect_same("on a target of " + std::to_string(large.width) + " x " + std::to_string(large.height), small,
+    if (const auto actual = trial.draw(large, outputs))
+      trial.expect_same("on a target of " + std::to_string(large.width) + " x " + std::to_string(large.height), small,
                         *expected, *actual);
   }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // I4, V1: whatever was drawn before, and whatever the buffers held.
-Verdict decide_repeat(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_repeat(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   const corpus::Outputs outputs = outputs_of(scene);
   corpus::Scene between = scene;
   std::reverse(between.draws.begin(), between.draws.end());
@@ -99,33 +99,33 @@ Verdict decide_repeat(const corpus::Scene& scene, const Renderer& renderer) {
     draw.scissor = draw.scissor ? std::nullopt : std::optional<Scissor>({0, 0, scene.width, scene.height / 2});
     draw.first_index.reset();
   }
-  const auto first = check.draw(scene, outputs);
+  const auto first = trial.draw(scene, outputs);
   for (const std::uint32_t garbage : {0x3F000000u, 0xFFC00001u, 0x00000001u}) {
-    if (!first || !check.draw_over(garbage, between, outputs)) return check.verdict();
+    if (!first || !trial.draw_over(garbage, between, outputs)) return trial.verdict();
     for (int time = 0; time < 2; ++time)  // at once, too: what alternates is not in step
-      if (const auto again = check.draw_over(garbage, scene, outputs))
-        check.expect_same("drawn again", scene, *first, *again);
+      if (const auto again = trial.draw_over(garbage, scene, outputs))
+        trial.expect_same("drawn again", scene, *first, *again);
   }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // An output does not depend on which others are asked for.
-Verdict decide_outputs(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_outputs(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   const corpus::Outputs all = outputs_of(scene);
-  const auto together = check.draw(scene, all);
+  const auto together = trial.draw(scene, all);
   for (unsigned output = 0; output < 5 && together && all.depth; ++output) {
     const corpus::Outputs one{output == 0, output == 1, output == 2, output == 3, output == 4};
-    const auto alone = check.draw(scene, one);
-    if (alone) check.expect_same("as the only output", scene, *alone, *together);
+    const auto alone = trial.draw(scene, one);
+    if (alone) trial.expect_same("as the only output", scene, *alone, *together);
   }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // V3: later draws go on from the depth that earlier ones left, as they would from initial depth.
-Verdict decide_frames(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
-  if (scene.draws.empty() || !outputs_of(scene).depth) return check.verdict();
+TrialResult decide_frames(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
+  if (scene.draws.empty() || !outputs_of(scene).depth) return trial.verdict();
   corpus::Scene whole = scene;
   std::uint32_t before = 0;
   for (corpus::SceneDraw& draw : whole.draws) {
@@ -137,11 +137,11 @@ Verdict decide_frames(const corpus::Scene& scene, const Renderer& renderer) {
   early.draws.erase(early.draws.begin() + half, early.draws.end());
   late.draws.erase(late.draws.begin(), late.draws.begin() + half);
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto expected = check.draw(whole, outputs), first = check.draw(early, outputs);
-  if (!expected || !first) return check.verdict();
+  const auto expected = trial.draw(whole, outputs), first = trial.draw(early, outputs);
+  if (!expected || !first) return trial.verdict();
   late.initial_depth = first->depth;
-  auto second = check.draw(late, outputs);
-  if (!second) return check.verdict();
+  auto second = trial.draw(late, outputs);
+  if (!second) return trial.verdict();
   for (std::size_t s = 0; s < second->count.size(); ++s) {
     second->count[s] += first->count[s];
     if (second->index[s] != kNoTriangle) continue;
@@ -153,29 +153,29 @@ Verdict decide_frames(const corpus::Scene& scene, const Renderer& renderer) {
         second->attributes[k][components * s + c] = first->attributes[k][components * s + c];
     }
   }
-  check.expect_same("drawn as two frames, the depth of the first initial in the second", scene, *second, *expected);
-  return check.verdict();
+  trial.expect_same("drawn as two frames, the depth of the first initial in the second", scene, *second, *expected);
+  return trial.verdict();
 }
 
 // M5, M2: without depth write no depth changes, and counts do not care.
-Verdict decide_depth_write(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_depth_write(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene off = scene, on = scene, empty = scene;
   for (corpus::SceneDraw& draw : off.draws) draw.depth_write = false;
   for (corpus::SceneDraw& draw : on.draws) draw.depth_write = true;
   for (corpus::SceneDraw& draw : empty.draws) draw.triangles.clear();
   const corpus::Outputs depth{false, false, true, false, false};
-  const auto kept = check.draw(off, depth), initial = check.draw(empty, depth);
-  const auto counts_off = check.draw(off, kCountOnly), counts_on = check.draw(on, kCountOnly);
-  if (!kept || !initial || !counts_off || !counts_on) return check.verdict();
-  check.expect_same("with depth write off", scene, *initial, *kept);
-  check.expect_same("with depth write off or on", scene, *counts_on, *counts_off);
-  return check.verdict();
+  const auto kept = trial.draw(off, depth), initial = trial.draw(empty, depth);
+  const auto counts_off = trial.draw(off, kCountOnly), counts_on = trial.draw(on, kCountOnly);
+  if (!kept || !initial || !counts_off || !counts_on) return trial.verdict();
+  trial.expect_same("with depth write off", scene, *initial, *kept);
+  trial.expect_same("with depth write off or on", scene, *counts_on, *counts_off);
+  return trial.verdict();
 }
 
 // B1: a bad triangle more, after the others.
-Verdict decide_bad_input(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_bad_input(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr float kBad[] = {std::numeric_limits<float>::quiet_NaN(), kInfinity, -kInfinity};
   Random random = random_of(scene);
@@ -214,22 +214,22 @@ Verdict decide_bad_input(const corpus::Scene& scene, const Renderer& renderer) {
     }
   }
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto without = check.draw(expected, outputs), with = check.draw(actual, outputs);
-  if (without && with) check.expect_same("with a triangle of bad numbers", scene, *without, *with);
-  return check.verdict();
+  const auto without = trial.draw(expected, outputs), with = trial.draw(actual, outputs);
+  if (without && with) trial.expect_same("with a triangle of bad numbers", scene, *without, *with);
+  return trial.verdict();
 }
 
 // The header's stride: an attribute of its own array, packed or with gaps, gives the image that interleaved ones give.
 // What lies in the gaps is not looked at.
-Verdict decide_layout(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_layout(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto expected = check.draw(scene, outputs);
+  const auto expected = trial.draw(scene, outputs);
   for (const std::uint32_t gap : {0u, 1u, 3u}) {
     std::vector<std::vector<AttributeArray>> arrays(scene.draws.size());
     std::vector<std::vector<float>> values;
     values.reserve(scene.draws.size() * scene.attributes.size());
-    const auto actual = check.draw_changed(scene, outputs, [&](std::vector<Draw>& draws) {
+    const auto actual = trial.draw_changed(scene, outputs, [&](std::vector<Draw>& draws) {
       for (std::size_t d = 0; d < draws.size(); ++d) {
         for (const AttributeArray& from : draws[d].attributes) {
           const std::uint32_t step = from.components + gap;
@@ -244,15 +244,15 @@ Verdict decide_layout(const corpus::Scene& scene, const Renderer& renderer) {
       }
     });
     if (expected && actual)
-      check.expect_same(gap == 0 ? "with packed attributes" : "with gaps between attributes", scene, *expected,
+      trial.expect_same(gap == 0 ? "with packed attributes" : "with gaps between attributes", scene, *expected,
                         *actual);
   }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // V1: Z := -Z under the other test. What is stored is -z, and +0 where that is 0.
-Verdict decide_reversed(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_reversed(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene plain = scene;
   plain.initial_depth.clear();
   for (corpus::SceneDraw& draw : plain.draws) draw.depth_mode = DepthMode::none;
@@ -261,12 +261,12 @@ Verdict decide_reversed(const corpus::Scene& scene, const Renderer& renderer) {
   for (corpus::SceneDraw& draw : reversed.draws)
     for (corpus::SceneVertex& v : draw.vertices) v.z = -v.z;
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto expected = check.draw(plain, outputs);
-  auto actual = check.draw(reversed, outputs);
-  if (!expected || !actual) return check.verdict();
+  const auto expected = trial.draw(plain, outputs);
+  auto actual = trial.draw(reversed, outputs);
+  if (!expected || !actual) return trial.verdict();
   for (float& depth : actual->depth) depth = depth == 0 ? depth : -depth;
-  check.expect_same("with depth reversed", scene, *expected, *actual);
-  return check.verdict();
+  trial.expect_same("with depth reversed", scene, *expected, *actual);
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "properties/generators/meshes.hpp"
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -153,20 +153,20 @@ corpus::Scene make_spot(std::uint64_t seed) {
   }
 }
 
-Verdict decide(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
-  const auto image = check.draw_facings(scene);
-  if (!image) return check.verdict();
+TrialResult decide(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
+  const auto image = trial.draw_facings(scene);
+  if (!image) return trial.verdict();
   const int expected = winding_number(scene.draws[0]);
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
       const std::size_t e = element(image->front, x, y);
       const auto degree = static_cast<int>(image->front.count[e]) - static_cast<int>(image->back.count[e]);
       if (degree != expected)
-        check.differs("front minus back of a closed mesh", x, y, std::to_string(expected), std::to_string(degree));
+        trial.differs("front minus back of a closed mesh", x, y, std::to_string(expected), std::to_string(degree));
     }
-  check.looked_at(image->front.count.size());
-  return check.verdict();
+  trial.looked_at(image->front.count.size());
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

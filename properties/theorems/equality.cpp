@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "oracle/oracle.hpp"
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -142,23 +142,23 @@ const corpus::Image& exact_image(const corpus::Scene& scene, const corpus::Outpu
   return last->image;
 }
 
-Verdict decide_with(const corpus::Scene& scene, const Renderer& renderer, const corpus::Outputs& outputs) {
-  Check check(renderer);
-  const auto actual = check.draw(scene, outputs);
-  if (!actual) return check.verdict();
+TrialResult decide_with(const corpus::Scene& scene, const Renderer& renderer, const corpus::Outputs& outputs) {
+  Trial trial(renderer);
+  const auto actual = trial.draw(scene, outputs);
+  if (!actual) return trial.verdict();
   const Comparison comparison = compare(scene, exact_image(scene, outputs), *actual, 1);
-  Verdict verdict{comparison.samples, comparison.differences, {}};
+  TrialResult verdict{comparison.samples, comparison.differences, {}};
   if (!comparison.first.empty()) verdict.finding = describe(comparison.first[0], scene.samples);
   return verdict;
 }
 
-Verdict decide_coverage(const corpus::Scene& scene, const Renderer& renderer) {
+TrialResult decide_coverage(const corpus::Scene& scene, const Renderer& renderer) {
   return decide_with(scene, renderer, kCountOnly);
 }
-Verdict decide_depth(const corpus::Scene& scene, const Renderer& renderer) {
+TrialResult decide_depth(const corpus::Scene& scene, const Renderer& renderer) {
   return decide_with(scene, renderer, {true, true, true, false, false});
 }
-Verdict decide_all(const corpus::Scene& scene, const Renderer& renderer) {
+TrialResult decide_all(const corpus::Scene& scene, const Renderer& renderer) {
   return decide_with(scene, renderer, outputs_of(scene));
 }
 

@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -23,8 +23,8 @@ corpus::Scene make_frame(std::uint64_t n) {
 }
 
 // M3, on a rectangle inside of the target.
-Verdict decide_scissor(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_scissor(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene whole = scene, cut = scene, empty = scene;
   const Scissor scissor{scene.width / 3, scene.height / 4, std::max(1, 2 * scene.width / 3),
                         scene.height - scene.height / 4};
@@ -34,32 +34,32 @@ Verdict decide_scissor(const corpus::Scene& scene, const Renderer& renderer) {
     empty.draws[d].triangles.clear();
   }
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto all = check.draw(whole, outputs), some = check.draw(cut, outputs), none = check.draw(empty, outputs);
-  if (!all || !some || !none) return check.verdict();
-  check.expect_parts("the scissor", scene, scissor, *all, *none, *some);
-  return check.verdict();
+  const auto all = trial.draw(whole, outputs), some = trial.draw(cut, outputs), none = trial.draw(empty, outputs);
+  if (!all || !some || !none) return trial.verdict();
+  trial.expect_parts("the scissor", scene, scissor, *all, *none, *some);
+  return trial.verdict();
 }
 
 // F2, M2.
-Verdict decide_facing(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_facing(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene both = scene;
   for (corpus::SceneDraw& draw : both.draws) draw.cull = Cull::none;
-  const auto all = check.draw(both, kCountOnly);
-  const auto one = check.draw_facings(scene);
-  if (!all || !one) return check.verdict();
+  const auto all = trial.draw(both, kCountOnly);
+  const auto one = trial.draw_facings(scene);
+  if (!all || !one) return trial.verdict();
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
       const std::size_t e = element(*all, x, y);
-      check.expect_count("count of front plus back", x, y, all->count[e], one->front.count[e] + one->back.count[e]);
+      trial.expect_count("count of front plus back", x, y, all->count[e], one->front.count[e] + one->back.count[e]);
     }
-  check.looked_at(all->count.size());
-  return check.verdict();
+  trial.looked_at(all->count.size());
+  return trial.verdict();
 }
 
 // V3: in index order, a draw and its two halves as draws of their own give one image.
-Verdict decide_split(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_split(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene halves = scene;
   halves.draws.clear();
   std::uint32_t before = 0;
@@ -72,7 +72,7 @@ Verdict decide_split(const corpus::Scene& scene, const Renderer& renderer) {
       first.first_index = draw.first_index.value_or(before);
     const auto same = [](const auto& a, const auto& b) { return a.identifier && a.identifier == b.identifier; };
     if (std::adjacent_find(first.triangles.begin(), first.triangles.end(), same) != first.triangles.end())
-      return check.verdict();  // identifiers are unique: a precondition
+      return trial.verdict();  // identifiers are unique: a precondition
     before += static_cast<std::uint32_t>(draw.triangles.size());
     corpus::SceneDraw second = first;
     const auto half = static_cast<std::ptrdiff_t>(draw.triangles.size() / 2);
@@ -83,36 +83,36 @@ Verdict decide_split(const corpus::Scene& scene, const Renderer& renderer) {
     halves.draws.push_back(std::move(second));
   }
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto whole = check.draw(scene, outputs), split = check.draw(halves, outputs);
-  if (whole && split) check.expect_same("with each draw split in two", scene, *whole, *split);
-  return check.verdict();
+  const auto whole = trial.draw(scene, outputs), split = trial.draw(halves, outputs);
+  if (whole && split) trial.expect_same("with each draw split in two", scene, *whole, *split);
+  return trial.verdict();
 }
 
 // Compares the scene with its changed form, whose pixel for (x, y) is `pixel`.
 template <class Pixel>
-void compare_changed(Check& check, const char* what, const std::pair<corpus::Scene, corpus::Scene>& scenes,
+void compare_changed(Trial& trial, const char* what, const std::pair<corpus::Scene, corpus::Scene>& scenes,
                      const Pixel& pixel) {
   const corpus::Outputs outputs = outputs_of(scenes.first);
-  const auto before = check.draw(scenes.first, outputs), after = check.draw(scenes.second, outputs);
+  const auto before = trial.draw(scenes.first, outputs), after = trial.draw(scenes.second, outputs);
   Correspondence correspondence;
   correspondence.pixel = pixel;
-  if (before && after) check.expect_same(what, scenes.first, *before, *after, correspondence);
+  if (before && after) trial.expect_same(what, scenes.first, *before, *after, correspondence);
 }
 
 // The same geometry on a larger target, and moved by whole pixels on it.
-Verdict decide_translation(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_translation(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   constexpr std::array<int, 2> kShifts[] = {{0, 0}, {1, 0}, {3, 5}, {64, 2}};
   for (const std::array<int, 2>& shift : kShifts) {
     const int dx = shift[0], dy = shift[1];
     auto scenes = changed_exactly(without_places(scene), [&](const Vertex& v) { return moved_exactly(v, dx, dy); });
     scenes.second.width += dx + 2;
     scenes.second.height += dy + 1;
-    compare_changed(check, "moved by whole pixels on a larger target", scenes, [&](int x, int y) {
+    compare_changed(trial, "moved by whole pixels on a larger target", scenes, [&](int x, int y) {
       return std::array<int, 2>{x + dx, y + dy};
     });
   }
-  return check.verdict();
+  return trial.verdict();
 }
 
 void flip_facing(corpus::Scene& scene) {
@@ -121,8 +121,8 @@ void flip_facing(corpus::Scene& scene) {
 }
 
 // C3: the mirrored triangle under the mirrored rule. X := width W - X.
-Verdict decide_mirror(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_mirror(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   const int width = scene.width;
   auto scenes = changed_exactly(without_places(scene), [&](const Vertex& v) {
     return moved_exactly({-v.x, v.y, v.z, v.w}, width, 0);
@@ -130,13 +130,13 @@ Verdict decide_mirror(const corpus::Scene& scene, const Renderer& renderer) {
   flip_facing(scenes.second);
   for (corpus::SceneDraw& draw : scenes.second.draws)
     draw.fill_rule = static_cast<FillRule>(static_cast<unsigned>(draw.fill_rule) ^ 1u);  // the x shift's sign
-  compare_changed(check, "mirrored", scenes, [&](int x, int y) { return std::array<int, 2>{width - 1 - x, y}; });
-  return check.verdict();
+  compare_changed(trial, "mirrored", scenes, [&](int x, int y) { return std::array<int, 2>{width - 1 - x, y}; });
+  return trial.verdict();
 }
 
 // C3: x and y exchanged, in vertices and in the rule. Always exact.
-Verdict decide_transpose(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_transpose(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   constexpr FillRule kTransposed[] = {FillRule::southwards,      FillRule::northwards,  FillRule::southwards_west,
                                       FillRule::northwards_west, FillRule::top_left,    FillRule::bottom_left,
                                       FillRule::top_right,       FillRule::bottom_right};
@@ -147,13 +147,13 @@ Verdict decide_transpose(const corpus::Scene& scene, const Renderer& renderer) {
   flip_facing(scenes.second);
   for (corpus::SceneDraw& draw : scenes.second.draws)
     draw.fill_rule = kTransposed[static_cast<std::size_t>(draw.fill_rule)];
-  compare_changed(check, "with x and y exchanged", scenes, [](int x, int y) { return std::array<int, 2>{y, x}; });
-  return check.verdict();
+  compare_changed(trial, "with x and y exchanged", scenes, [](int x, int y) { return std::array<int, 2>{y, x}; });
+  return trial.verdict();
 }
 
 // M6: a box around the vertices, at W = 1.
-Verdict decide_culling_box(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_culling_box(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene open = scene;
   for (corpus::SceneDraw& draw : open.draws) {
     draw.culling_box.reset();
@@ -175,9 +175,9 @@ Verdict decide_culling_box(const corpus::Scene& scene, const Renderer& renderer)
       (*draw.culling_box)[i] = {(*ends)[i & 1u].x, (*ends)[i >> 1 & 1u].y, (*ends)[i >> 2].z, 1};
   }
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto without = check.draw(open, outputs), with = check.draw(boxed, outputs);
-  if (without && with) check.expect_same("with a culling box", scene, *without, *with);
-  return check.verdict();
+  const auto without = trial.draw(open, outputs), with = trial.draw(boxed, outputs);
+  if (without && with) trial.expect_same("with a culling box", scene, *without, *with);
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -31,8 +31,8 @@ corpus::Scene make_one(std::uint64_t n) {
 }
 
 // S4: sample n is the centre of an image of its own, whose vertices are moved the other way.
-Verdict decide_shift(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_shift(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   const auto moved = [&](const Vertex& v, int n) {
     const SampleLocation at = sample_location(scene.samples, n);
     return moved_exactly(v, (8 - at.x) / 16.0, (8 - at.y) / 16.0);
@@ -44,31 +44,31 @@ Verdict decide_shift(const corpus::Scene& scene, const Renderer& renderer) {
                              }).first;
   corpus::Outputs outputs = outputs_of(many);
   outputs.barycentrics = false;
-  const auto all = check.draw(many, outputs);
-  if (!all) return check.verdict();
+  const auto all = trial.draw(many, outputs);
+  if (!all) return trial.verdict();
   const auto samples = static_cast<std::size_t>(scene.samples);
   for (int n = 0; n < scene.samples; ++n) {
     corpus::Scene one = changed_exactly(many, [&](const Vertex& v) { return moved(v, n); }).second;
     one.samples = 1;
-    const auto image = check.draw(one, outputs);
-    if (!image) return check.verdict();
+    const auto image = trial.draw(one, outputs);
+    if (!image) return trial.verdict();
     const std::string label = "sample " + std::to_string(n) + " of " + std::to_string(scene.samples) + ": ";
     for (int y = 0; y < scene.height; ++y)
       for (int x = 0; x < scene.width; ++x) {
         const std::size_t e = element(*image, x, y), a = e * samples + static_cast<std::size_t>(n);
-        check.looked_at(1);
-        check.expect_count(label + "count", x, y, image->count[e], all->count[a]);
+        trial.looked_at(1);
+        trial.expect_count(label + "count", x, y, image->count[e], all->count[a]);
         if (!outputs.depth) continue;
-        check.expect_index(label + "index", x, y, image->index[e], all->index[a]);
-        check.expect_bits(label + "depth", x, y, image->depth[e], all->depth[a]);
+        trial.expect_index(label + "index", x, y, image->index[e], all->index[a]);
+        trial.expect_bits(label + "depth", x, y, image->depth[e], all->depth[a]);
       }
   }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // M1: where a triangle covers the pixel's centre, every sample of it there has the attributes of the centre.
-Verdict decide_at_centre(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_at_centre(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   for (std::size_t d = 0; d < scene.draws.size(); ++d)
     for (std::size_t t = 0; t < scene.draws[d].triangles.size(); ++t) {
       corpus::Scene many = with_one_triangle(without_places(scene), d, t);
@@ -77,11 +77,11 @@ Verdict decide_at_centre(const corpus::Scene& scene, const Renderer& renderer) {
       centre.samples = 1;
       corpus::Outputs outputs = outputs_of(many);
       outputs.index = outputs.depth = false;
-      const auto at_centre = check.draw(centre, outputs);
+      const auto at_centre = trial.draw(centre, outputs);
       for (const AttributeLocation location : {AttributeLocation::centre, AttributeLocation::centroid}) {
         many.attribute_location = location;
-        const auto image = check.draw(many, outputs);
-        if (!image || !at_centre || image->barycentrics.empty()) return check.verdict();
+        const auto image = trial.draw(many, outputs);
+        if (!image || !at_centre || image->barycentrics.empty()) return trial.verdict();
         const auto samples = static_cast<std::size_t>(many.samples);
         for (int y = 0; y < scene.height; ++y)
           for (int x = 0; x < scene.width; ++x) {
@@ -89,19 +89,19 @@ Verdict decide_at_centre(const corpus::Scene& scene, const Renderer& renderer) {
             if (at_centre->count[e] == 0) continue;
             for (std::size_t s = e * samples; s < (e + 1) * samples; ++s) {
               if (image->count[s] == 0) continue;
-              check.looked_at(1);
+              trial.looked_at(1);
               for (std::size_t i = 0; i < 3; ++i)
-                check.expect_bits("barycentrics at a covered centre", x, y, at_centre->barycentrics[3 * e + i],
+                trial.expect_bits("barycentrics at a covered centre", x, y, at_centre->barycentrics[3 * e + i],
                                   image->barycentrics[3 * s + i]);
               for (std::size_t k = 0; k < scene.attributes.size(); ++k)
                 for (std::size_t c = 0, n = scene.attributes[k].components; c < n; ++c)
-                  check.expect_bits("attribute at a covered centre", x, y, at_centre->attributes[k][n * e + c],
+                  trial.expect_bits("attribute at a covered centre", x, y, at_centre->attributes[k][n * e + c],
                                     image->attributes[k][n * s + c]);
             }
           }
       }
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // One triangle in a conservative mode, or in none.
@@ -115,60 +115,60 @@ corpus::Scene conservative_scene(const corpus::Scene& scene, const std::array<Ve
 
 // M4: inner within covered within over. A covered sample of any pattern is a point of T; of eight samples, none lies on
 // the border of its pixel, so all of them are covered where the closed square lies in T.
-Verdict decide_contains(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_contains(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   for (const corpus::SceneDraw& draw : scene.draws)
     for (const corpus::SceneTriangle& t : draw.triangles) {
       const std::array<Vertex, 3> triangle = triangle_of(draw, t);
       const auto mode = [&](Conservative m) { return conservative_scene(scene, triangle, draw.fill_rule, m); };
       corpus::Scene plain = mode(Conservative::none), eight = plain;
       eight.samples = 8;
-      const auto over = check.draw(mode(Conservative::over), kCountOnly);
-      const auto inner = check.draw(mode(Conservative::inner), kCountOnly);
-      const auto covered = check.draw(plain, kCountOnly), many = check.draw(eight, kCountOnly);
-      if (!over || !inner || !covered || !many) return check.verdict();
-      check.looked_at(covered->count.size());
+      const auto over = trial.draw(mode(Conservative::over), kCountOnly);
+      const auto inner = trial.draw(mode(Conservative::inner), kCountOnly);
+      const auto covered = trial.draw(plain, kCountOnly), many = trial.draw(eight, kCountOnly);
+      if (!over || !inner || !covered || !many) return trial.verdict();
+      trial.looked_at(covered->count.size());
       for (int y = 0; y < scene.height; ++y)
         for (int x = 0; x < scene.width; ++x) {
           const std::size_t e = element(*covered, x, y);
           const auto first = many->count.begin() + static_cast<std::ptrdiff_t>(8 * e);
           const bool any = covered->count[e] != 0 || std::any_of(first, first + 8, [](auto c) { return c != 0; });
           const bool all = covered->count[e] != 0 && std::all_of(first, first + 8, [](auto c) { return c != 0; });
-          if (any) check.expect_count("count of over where a sample is covered", x, y, 1, over->count[e]);
-          if (!all) check.expect_count("count of inner where a sample is not covered", x, y, 0, inner->count[e]);
+          if (any) trial.expect_count("count of over where a sample is covered", x, y, 1, over->count[e]);
+          if (!all) trial.expect_count("count of inner where a sample is not covered", x, y, 0, inner->count[e]);
         }
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // M4: T is the union of its pieces.
-Verdict decide_conservative_split(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_conservative_split(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   Random random = random_of(scene);
   for (const corpus::SceneDraw& draw : scene.draws)
     for (const corpus::SceneTriangle& t : draw.triangles) {
       const std::array<Vertex, 3> whole = triangle_of(draw, t);
       const std::vector<std::array<Vertex, 3>> pieces = pieces_of(whole, random);
       for (const Conservative mode : {Conservative::over, Conservative::inner}) {
-        const auto expected = check.draw(conservative_scene(scene, whole, draw.fill_rule, mode), kCountOnly);
-        if (!expected) return check.verdict();
+        const auto expected = trial.draw(conservative_scene(scene, whole, draw.fill_rule, mode), kCountOnly);
+        if (!expected) return trial.verdict();
         std::vector<std::uint32_t> sum(expected->count.size());
         for (const auto& piece : pieces) {
-          const auto image = check.draw(conservative_scene(scene, piece, draw.fill_rule, mode), kCountOnly);
-          if (!image) return check.verdict();
+          const auto image = trial.draw(conservative_scene(scene, piece, draw.fill_rule, mode), kCountOnly);
+          if (!image) return trial.verdict();
           for (std::size_t s = 0; s < sum.size(); ++s) sum[s] |= image->count[s];
         }
-        check.looked_at(sum.size());
+        trial.looked_at(sum.size());
         for (int y = 0; y < scene.height; ++y)
           for (int x = 0; x < scene.width; ++x) {
             const std::size_t e = element(*expected, x, y);
-            if (mode == Conservative::over) check.expect_count("over, by pieces", x, y, expected->count[e], sum[e]);
+            if (mode == Conservative::over) trial.expect_count("over, by pieces", x, y, expected->count[e], sum[e]);
             if (mode == Conservative::inner && sum[e] != 0)
-              check.expect_count("inner where a piece is inner", x, y, 1, expected->count[e]);
+              trial.expect_count("inner where a piece is inner", x, y, 1, expected->count[e]);
           }
       }
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // Positions that lie on a grid of any offset; W is a power of two.
@@ -212,8 +212,8 @@ bool on_grid(const corpus::SceneVertex& v, const Grid& grid) {
 }
 
 // G1: snapping moves nothing that lies on the grid.
-Verdict decide_on_lattice(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_on_lattice(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene snapped = scene;
   for (corpus::SceneDraw& draw : snapped.draws) {
     draw.culling_box.reset();
@@ -226,9 +226,9 @@ Verdict decide_on_lattice(const corpus::Scene& scene, const Renderer& renderer) 
   corpus::Scene plain = snapped;
   for (corpus::SceneDraw& draw : plain.draws) draw.grid.reset();
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto expected = check.draw(plain, outputs), actual = check.draw(snapped, outputs);
-  if (expected && actual) check.expect_same("with a grid that holds all positions", scene, *expected, *actual);
-  return check.verdict();
+  const auto expected = trial.draw(plain, outputs), actual = trial.draw(snapped, outputs);
+  if (expected && actual) trial.expect_same("with a grid that holds all positions", scene, *expected, *actual);
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "properties/generators/meshes.hpp"
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -324,29 +324,29 @@ corpus::Scene make_deformed(std::uint64_t seed) {
   return scene;
 }
 
-Verdict decide_signed(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
-  const auto image = check.draw_facings(scene);
-  if (!image) return check.verdict();
+TrialResult decide_signed(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
+  const auto image = trial.draw_facings(scene);
+  if (!image) return trial.verdict();
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
       const std::size_t e = element(image->front, x, y);
-      check.expect_count("front of a snapped tiling, against 1 + back,", x, y, 1 + image->back.count[e],
+      trial.expect_count("front of a snapped tiling, against 1 + back,", x, y, 1 + image->back.count[e],
                          image->front.count[e]);
     }
-  check.looked_at(image->front.count.size());
-  return check.verdict();
+  trial.looked_at(image->front.count.size());
+  return trial.verdict();
 }
 
-Verdict decide(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
-  const auto image = check.draw(scene, kCountOnly);
-  if (!image) return check.verdict();
+TrialResult decide(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
+  const auto image = trial.draw(scene, kCountOnly);
+  if (!image) return trial.verdict();
   for (int y = 0; y < image->height; ++y)
     for (int x = 0; x < image->width; ++x)
-      check.expect_count("count of a tiling", x, y, 1, image->count[element(*image, x, y)]);
-  check.looked_at(image->count.size());
-  return check.verdict();
+      trial.expect_count("count of a tiling", x, y, 1, image->count[element(*image, x, y)]);
+  trial.looked_at(image->count.size());
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -21,16 +21,16 @@ std::uint32_t digit(std::uint64_t& number, std::uint64_t base) {
   return d;
 }
 
-Verdict decide_all(const corpus::Scene& scene, const Renderer& renderer) {
+TrialResult decide_all(const corpus::Scene& scene, const Renderer& renderer) {
   const Comparison comparison = compare(scene, oracle_renderer(), renderer, {true, true, true, true, false}, 1);
-  Verdict verdict{comparison.samples, comparison.differences, {}};
+  TrialResult verdict{comparison.samples, comparison.differences, {}};
   if (!comparison.first.empty()) verdict.finding = describe(comparison.first[0], scene.samples);
   return verdict;
 }
 
-Verdict decide_outputs(const corpus::Scene& scene, const Renderer& renderer) {
+TrialResult decide_outputs(const corpus::Scene& scene, const Renderer& renderer) {
   const Comparison comparison = compare(scene, oracle_renderer(), renderer, outputs_of(scene), 1);
-  Verdict verdict{comparison.samples, comparison.differences, {}};
+  TrialResult verdict{comparison.samples, comparison.differences, {}};
   if (!comparison.first.empty()) verdict.finding = describe(comparison.first[0], scene.samples);
   return verdict;
 }
@@ -76,7 +76,7 @@ corpus::Scene make_octants(std::uint64_t number) {
   return triangle_scene(2, 2, t);
 }
 
-Verdict decide_octants(const corpus::Scene& scene, const Renderer& renderer) {
+TrialResult decide_octants(const corpus::Scene& scene, const Renderer& renderer) {
   for (const Property& property : symmetry_properties())
     if (std::string_view(property.name) == "octants") return property.decide(scene, renderer);
   return {0, 1, "no property \"octants\""};
@@ -99,30 +99,30 @@ corpus::Scene make_shared_edge(std::uint64_t number) {
 
 // Where a and d lie on opposite sides of the line b c, the triangles do not overlap: no sample is covered twice. Where
 // b and c also lie on opposite sides of a d, they tile a convex quad, which its other diagonal cuts, too: same counts.
-Verdict decide_shared_edge(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
-  if (scene.draws.empty() || scene.draws[0].triangles.size() < 2) return check.verdict();
+TrialResult decide_shared_edge(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
+  if (scene.draws.empty() || scene.draws[0].triangles.size() < 2) return trial.verdict();
   const corpus::SceneDraw& draw = scene.draws[0];
   const auto& [first, second] = std::array{draw.triangles[0].vertices, draw.triangles[1].vertices};
-  if (first[1] != second[1] || first[2] != second[0]) return check.verdict();  // no shared edge
+  if (first[1] != second[1] || first[2] != second[0]) return trial.verdict();  // no shared edge
   const std::uint32_t a = first[0], b = first[1], c = first[2], d = second[2];
   const auto side = [&](std::uint32_t i, std::uint32_t j, std::uint32_t k) {
     return facing(triangle_of(draw, {{i, j, k}, std::nullopt}));
   };
-  if (side(b, c, a) * side(b, c, d) >= 0) return check.verdict();
-  const auto image = check.draw(scene, kCountOnly);
-  if (!image) return check.verdict();
-  check.looked_at(image->count.size());
+  if (side(b, c, a) * side(b, c, d) >= 0) return trial.verdict();
+  const auto image = trial.draw(scene, kCountOnly);
+  if (!image) return trial.verdict();
+  trial.looked_at(image->count.size());
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x)
-      check.expect_at_most("count of two triangles that share an edge", x, y, 1, image->count[element(*image, x, y)]);
-  if (side(a, d, b) * side(a, d, c) >= 0) return check.verdict();
+      trial.expect_at_most("count of two triangles that share an edge", x, y, 1, image->count[element(*image, x, y)]);
+  if (side(a, d, b) * side(a, d, c) >= 0) return trial.verdict();
   corpus::Scene other = scene;
   other.draws[0].triangles[0].vertices = {b, d, a};
   other.draws[0].triangles[1].vertices = {a, d, c};
-  if (const auto turned = check.draw(other, kCountOnly))
-    check.expect_same("a quad cut along its other diagonal", scene, *image, *turned);
-  return check.verdict();
+  if (const auto turned = trial.draw(other, kCountOnly))
+    trial.expect_same("a quad cut along its other diagonal", scene, *image, *turned);
+  return trial.verdict();
 }
 
 // Worlds of millions of triangles, by integers alone. A case is two vertices and a rule; its frame has a triangle for
@@ -293,8 +293,8 @@ bool covers_square(const std::array<Whole, 3>& m, const std::array<Whole, 3>& ed
                      [&](const Whole& e) { return std::any_of(std::begin(corners), std::end(corners), within(e)); });
 }
 
-Verdict decide_by_integers(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_by_integers(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   std::vector<std::uint32_t> expected(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
   for (const corpus::SceneDraw& draw : scene.draws)
     for (const corpus::SceneTriangle& triangle : draw.triangles) {
@@ -302,8 +302,8 @@ Verdict decide_by_integers(const corpus::Scene& scene, const Renderer& renderer)
       std::array<Whole, 3> m{};
       for (std::size_t i = 0; i < 3; ++i) {
         const auto whole = in_eighths(t[i]);
-        if (!whole) return check.verdict();  // a simpler case, no more of this world
-        if (draw.conservative != Conservative::none && (*whole)[2] != 8) return check.verdict();
+        if (!whole) return trial.verdict();  // a simpler case, no more of this world
+        if (draw.conservative != Conservative::none && (*whole)[2] != 8) return trial.verdict();
         m[i] = *whole;
       }
       const std::array<Whole, 3> edges = {edge_between(m[1], m[2]), edge_between(m[2], m[0]), edge_between(m[0], m[1])};
@@ -331,15 +331,15 @@ Verdict decide_by_integers(const corpus::Scene& scene, const Renderer& renderer)
     draw.depth_mode = DepthMode::none;
     draw.grid.reset();
   }
-  const auto image = check.draw(plain, kCountOnly);
-  if (!image || image->samples != 1) return check.verdict();
-  check.looked_at(expected.size());
+  const auto image = trial.draw(plain, kCountOnly);
+  if (!image || image->samples != 1) return trial.verdict();
+  trial.looked_at(expected.size());
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
       const std::size_t e = element(*image, x, y);
-      check.expect_count("count", x, y, expected[e], image->count[e]);
+      trial.expect_count("count", x, y, expected[e], image->count[e]);
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

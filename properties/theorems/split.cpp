@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 
@@ -63,8 +63,8 @@ corpus::Scene make(std::uint64_t n) {
 }
 
 // Pieces keep the facing of the whole and, Z being cut like X and Y, its depth.
-Verdict decide(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   const corpus::Scene whole = without_attributes(scene);
   corpus::Scene split = whole;
   Random random = random_of(scene);
@@ -82,9 +82,9 @@ Verdict decide(const corpus::Scene& scene, const Renderer& renderer) {
   }
   corpus::Outputs outputs = outputs_of(scene);
   outputs.index = outputs.barycentrics = outputs.attributes = false;
-  const auto before = check.draw(whole, outputs), after = check.draw(split, outputs);
-  if (before && after) check.expect_same("with triangles cut into pieces", whole, *before, *after);
-  return check.verdict();
+  const auto before = trial.draw(whole, outputs), after = trial.draw(split, outputs);
+  if (before && after) trial.expect_same("with triangles cut into pieces", whole, *before, *after);
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

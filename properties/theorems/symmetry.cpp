@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -29,8 +29,8 @@ Vertex negated(const Vertex& v) {
 }
 
 // T3. Also D = 0: then none of the eight covers anything.
-Verdict decide_octants(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_octants(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   for (const corpus::SceneDraw& draw : scene.draws)
     for (const corpus::SceneTriangle& triangle : draw.triangles) {
       const std::array<Vertex, 3> t = triangle_of(draw, triangle);
@@ -42,40 +42,40 @@ Verdict decide_octants(const corpus::Scene& scene, const Renderer& renderer) {
       all.triangles.clear();
       for (std::uint32_t signs = 0; signs < 8; ++signs)
         all.triangles.push_back({{(signs & 1u) * 3, (signs >> 1 & 1u) * 3 + 1, (signs >> 2) * 3 + 2}, std::nullopt});
-      const auto image = check.draw(octants, kCountOnly);
-      if (!image) return check.verdict();
+      const auto image = trial.draw(octants, kCountOnly);
+      if (!image) return trial.verdict();
       const std::uint32_t expected = facing(t) == 0 ? 0 : 1;
       for (int y = 0; y < image->height; ++y)
         for (int x = 0; x < image->width; ++x)
-          check.expect_count("count of the eight octants", x, y, expected, image->count[element(*image, x, y)]);
-      check.looked_at(image->count.size());
+          trial.expect_count("count of the eight octants", x, y, expected, image->count[element(*image, x, y)]);
+      trial.looked_at(image->count.size());
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
-Verdict decide_negation(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_negation(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   for (std::size_t d = 0; d < scene.draws.size(); ++d)
     for (std::size_t t = 0; t < scene.draws[d].triangles.size(); ++t) {
       corpus::Scene one = with_one_triangle(scene, d, t);
       one.draws[0].cull = Cull::none;
       corpus::Scene opposite = one;
       for (corpus::SceneVertex& v : opposite.draws[0].vertices) v = {-v.x, -v.y, -v.z, -v.w, v.attributes};
-      const auto before = check.draw(one, kCountOnly), after = check.draw(opposite, kCountOnly);
-      if (!before || !after) return check.verdict();
+      const auto before = trial.draw(one, kCountOnly), after = trial.draw(opposite, kCountOnly);
+      if (!before || !after) return trial.verdict();
       for (int y = 0; y < scene.height; ++y)
         for (int x = 0; x < scene.width; ++x)
           if (before->count[element(*before, x, y)] != 0)
-            check.expect_count("count of the negated triangle", x, y, 0, after->count[element(*after, x, y)]);
-      check.looked_at(before->count.size());
+            trial.expect_count("count of the negated triangle", x, y, 0, after->count[element(*after, x, y)]);
+      trial.looked_at(before->count.size());
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // T4. Every corner of every triangle gets its own scale, wherever that is exact. Perspective weights change, the rest
 // does not: W_i E_i / D keeps its value.
-Verdict decide_scale(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_scale(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene changed = scene;
   Random random(scene.draws.size());
   for (corpus::SceneDraw& draw : changed.draws) {
@@ -93,19 +93,19 @@ Verdict decide_scale(const corpus::Scene& scene, const Renderer& renderer) {
   }
   corpus::Outputs outputs = outputs_of(scene);
   outputs.barycentrics = false;
-  const auto before = check.draw(scene, outputs), after = check.draw(changed, outputs);
-  if (!before || !after) return check.verdict();
+  const auto before = trial.draw(scene, outputs), after = trial.draw(changed, outputs);
+  if (!before || !after) return trial.verdict();
   Correspondence correspondence;
   correspondence.attribute = [](const corpus::SceneAttribute& a) {
     return a.interpolation != Interpolation::perspective;
   };
-  check.expect_same("after scaling each vertex by a power of two", scene, *before, *after, correspondence);
-  return check.verdict();
+  trial.expect_same("after scaling each vertex by a power of two", scene, *before, *after, correspondence);
+  return trial.verdict();
 }
 
 // T5: (v1, v2, v0), and (v0, v2, v1) with the other front face.
-Verdict decide_order(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_order(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene shifted = scene, swapped = scene;
   for (corpus::SceneDraw& draw : shifted.draws)
     for (corpus::SceneTriangle& t : draw.triangles)
@@ -115,22 +115,22 @@ Verdict decide_order(const corpus::Scene& scene, const Renderer& renderer) {
     draw.front_face = draw.front_face == FrontFace::clockwise ? FrontFace::counter_clockwise : FrontFace::clockwise;
   }
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto before = check.draw(scene, outputs), shift = check.draw(shifted, outputs),
-             swap = check.draw(swapped, outputs);
-  if (!before || !shift || !swap) return check.verdict();
+  const auto before = trial.draw(scene, outputs), shift = trial.draw(shifted, outputs),
+             swap = trial.draw(swapped, outputs);
+  if (!before || !shift || !swap) return trial.verdict();
   Correspondence after_shift;
   after_shift.barycentrics = {2, 0, 1};
   after_shift.attribute = [](const corpus::SceneAttribute& a) { return a.interpolation != Interpolation::flat; };
-  check.expect_same("after a cyclic shift", scene, *before, *shift, after_shift);
+  trial.expect_same("after a cyclic shift", scene, *before, *shift, after_shift);
   Correspondence after_swap;
   after_swap.barycentrics = {0, 2, 1};
-  check.expect_same("after a swap of two vertices", scene, *before, *swap, after_swap);
-  return check.verdict();
+  trial.expect_same("after a swap of two vertices", scene, *before, *swap, after_swap);
+  return trial.verdict();
 }
 
 // V2. Triangles without identifiers get those that they have by position.
-Verdict decide_identifiers(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_identifiers(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene reversed = scene;
   std::uint32_t before_this_draw = 0;
   for (corpus::SceneDraw& draw : reversed.draws) {
@@ -143,19 +143,19 @@ Verdict decide_identifiers(const corpus::Scene& scene, const Renderer& renderer)
       different.insert(*t.identifier);
     }
     draw.first_index.reset();
-    if (different.size() != draw.triangles.size()) return check.verdict();  // identifiers are unique: a precondition
+    if (different.size() != draw.triangles.size()) return trial.verdict();  // identifiers are unique: a precondition
     std::reverse(draw.triangles.begin(), draw.triangles.end());
   }
   corpus::Scene rotated = reversed;
   for (corpus::SceneDraw& draw : rotated.draws)
     if (!draw.triangles.empty()) std::rotate(draw.triangles.begin(), draw.triangles.begin() + 1, draw.triangles.end());
   const corpus::Outputs outputs = outputs_of(scene);
-  const auto expected = check.draw(scene, outputs), one = check.draw(reversed, outputs),
-             two = check.draw(rotated, outputs);
-  if (!expected || !one || !two) return check.verdict();
-  check.expect_same("with identifiers, in reverse order", scene, *expected, *one);
-  check.expect_same("with identifiers, in another order", scene, *expected, *two);
-  return check.verdict();
+  const auto expected = trial.draw(scene, outputs), one = trial.draw(reversed, outputs),
+             two = trial.draw(rotated, outputs);
+  if (!expected || !one || !two) return trial.verdict();
+  trial.expect_same("with identifiers, in reverse order", scene, *expected, *one);
+  trial.expect_same("with identifiers, in another order", scene, *expected, *two);
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

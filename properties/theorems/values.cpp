@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -35,31 +35,31 @@ void show_depth(corpus::Scene& scene) {
 }
 
 // sum X_i E_i = px D: depth reproduces position.
-Verdict decide_position(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_position(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   for (const int component : {0, 1, 2}) {
     corpus::Scene changed = without_attributes(scene);
     show_depth(changed);
     for (corpus::SceneDraw& draw : changed.draws)
       for (corpus::SceneVertex& v : draw.vertices) v.z = component == 0 ? v.x : component == 1 ? v.y : v.w;
-    const auto image = check.draw(changed, {true, false, true, false, false});
-    if (!image) return check.verdict();
+    const auto image = trial.draw(changed, {true, false, true, false, false});
+    if (!image) return trial.verdict();
     for (int y = 0; y < image->height; ++y)
       for (int x = 0; x < image->width; ++x) {
         const std::size_t e = element(*image, x, y);
         if (image->count[e] == 0) continue;
-        check.looked_at(1);
+        trial.looked_at(1);
         const float position[] = {static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f, 1.0f};
         const char* const what[] = {"depth of Z := X", "depth of Z := Y", "depth of Z := W"};
-        check.expect_bits(what[component], x, y, position[component], image->depth[e]);
+        trial.expect_bits(what[component], x, y, position[component], image->depth[e]);
       }
   }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // With Z := X - (c + 1/2) W the depth in column x is x - c: 0 and 1, exactly, in columns c and c + 1.
-Verdict decide_clip(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_clip(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   const int column = scene.width / 2;
   corpus::Scene open = without_attributes(scene);
   show_depth(open);
@@ -76,22 +76,22 @@ Verdict decide_clip(const corpus::Scene& scene, const Renderer& renderer) {
   for (corpus::SceneDraw& draw : clipped.draws) draw.depth_mode = DepthMode::clip;
   for (corpus::SceneDraw& draw : clamped.draws) draw.depth_mode = DepthMode::clamp;
   const corpus::Outputs outputs{true, true, true, false, false};
-  const auto all = check.draw(open, outputs), some = check.draw(clipped, outputs), flat = check.draw(clamped, outputs);
-  if (!all || !some || !flat) return check.verdict();
+  const auto all = trial.draw(open, outputs), some = trial.draw(clipped, outputs), flat = trial.draw(clamped, outputs);
+  if (!all || !some || !flat) return trial.verdict();
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
       const std::size_t e = element(*all, x, y);
       if (all->count[e] == 0) continue;
-      check.looked_at(1);
+      trial.looked_at(1);
       const int depth = x - column;
-      check.expect_count("count under depth clipping", x, y, depth == 0 || depth == 1 ? all->count[e] : 0,
+      trial.expect_count("count under depth clipping", x, y, depth == 0 || depth == 1 ? all->count[e] : 0,
                          some->count[e]);
-      check.expect_count("count under depth clamping", x, y, all->count[e], flat->count[e]);
-      check.expect_bits("depth without clipping", x, y, static_cast<float>(depth), all->depth[e]);
-      check.expect_bits("depth under depth clamping", x, y, static_cast<float>(std::clamp(depth, 0, 1)),
+      trial.expect_count("count under depth clamping", x, y, all->count[e], flat->count[e]);
+      trial.expect_bits("depth without clipping", x, y, static_cast<float>(depth), all->depth[e]);
+      trial.expect_bits("depth under depth clamping", x, y, static_cast<float>(std::clamp(depth, 0, 1)),
                         flat->depth[e]);
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 struct Place {
@@ -117,23 +117,23 @@ std::map<std::uint32_t, Place> triangles_by_index(const corpus::Scene& scene) {
 }
 
 // I4: a convex combination stays in range, and a constant stays constant, after rounding, too.
-Verdict decide_range(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
-  const auto image = check.draw(scene, outputs_of(scene));
-  if (!image || image->index.empty()) return check.verdict();
+TrialResult decide_range(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
+  const auto image = trial.draw(scene, outputs_of(scene));
+  if (!image || image->index.empty()) return trial.verdict();
   const std::map<std::uint32_t, Place> places = triangles_by_index(scene);
   const bool depth_bounded = std::all_of(scene.draws.begin(), scene.draws.end(), [](const corpus::SceneDraw& draw) {
     return draw.depth_write && draw.depth_mode != DepthMode::none;
   });
   const auto expect_within = [&](const std::string& what, int x, int y, float low, float high, float value) {
-    if (!(low <= value && value <= high)) check.differs(what, x, y, text(low) + " to " + text(high), text(value));
+    if (!(low <= value && value <= high)) trial.differs(what, x, y, text(low) + " to " + text(high), text(value));
   };
   for (int y = 0; y < scene.height; ++y)
     for (int x = 0; x < scene.width; ++x) {
       const std::size_t e = element(*image, x, y);
       const auto found = places.find(image->index[e]);
       if (found == places.end()) continue;
-      check.looked_at(1);
+      trial.looked_at(1);
       if (depth_bounded) expect_within("depth, clipped or clamped,", x, y, 0, 1, image->depth[e]);
       for (std::size_t i = 0; i < 3; ++i) expect_within("barycentrics", x, y, 0, 1, image->barycentrics[3 * e + i]);
       const corpus::SceneDraw& draw = scene.draws[found->second.draw];
@@ -149,20 +149,20 @@ Verdict decide_range(const corpus::Scene& scene, const Renderer& renderer) {
           }
           const float value = image->attributes[k][e * attribute.components + c];
           if (low == high)
-            check.expect_bits("constant attribute " + attribute.name, x, y, low == 0 ? 0.0f : low, value);
+            trial.expect_bits("constant attribute " + attribute.name, x, y, low == 0 ? 0.0f : low, value);
           else if (attribute.interpolation != Interpolation::noperspective)
             expect_within("attribute " + attribute.name, x, y, low, high, value);
         }
         first += attribute.components;
       }
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // I1 to I3 by several routes: with W = 1 depth, noperspective and perspective attributes are one function; perspective
 // attributes that are unit vectors are the barycentrics at any W.
-Verdict decide_routes(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_routes(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   for (const bool unit_w : {true, false}) {
     corpus::Scene changed = without_attributes(scene);
     show_depth(changed);
@@ -181,38 +181,38 @@ Verdict decide_routes(const corpus::Scene& scene, const Renderer& renderer) {
           draw.vertices.push_back(std::move(v));
         }
     }
-    const auto image = check.draw(changed, outputs_of(changed));
-    if (!image || image->index.empty()) return check.verdict();
+    const auto image = trial.draw(changed, outputs_of(changed));
+    if (!image || image->index.empty()) return trial.verdict();
     for (int y = 0; y < scene.height; ++y)
       for (int x = 0; x < scene.width; ++x) {
         const std::size_t e = element(*image, x, y);
         if (image->index[e] == kNoTriangle) continue;
-        check.looked_at(1);
+        trial.looked_at(1);
         if (unit_w) {
-          check.expect_bits("perspective attribute of W = 1, against depth,", x, y, image->depth[e],
+          trial.expect_bits("perspective attribute of W = 1, against depth,", x, y, image->depth[e],
                             image->attributes[0][e]);
-          check.expect_bits("noperspective attribute of W = 1, against depth,", x, y, image->depth[e],
+          trial.expect_bits("noperspective attribute of W = 1, against depth,", x, y, image->depth[e],
                             image->attributes[1][e]);
         }
         for (std::size_t i = 0; i < 3; ++i)
-          check.expect_bits("attribute of unit vectors, against barycentrics,", x, y, image->barycentrics[3 * e + i],
+          trial.expect_bits("attribute of unit vectors, against barycentrics,", x, y, image->barycentrics[3 * e + i],
                             image->attributes[2][3 * e + i]);
       }
   }
-  return check.verdict();
+  return trial.verdict();
 }
 
 // I2: u := X, Y, W. u_X = px D / sum E and u_W = D / sum E, so u_X = px u_W up to the rounding of each: their intervals
 // of rounding meet.
-Verdict decide_position_attributes(const corpus::Scene& scene, const Renderer& renderer) {
-  Check check(renderer);
+TrialResult decide_position_attributes(const corpus::Scene& scene, const Renderer& renderer) {
+  Trial trial(renderer);
   corpus::Scene changed = without_attributes(scene);
   show_depth(changed);
   changed.attributes = {{"position", 3, Interpolation::perspective}};
   for (corpus::SceneDraw& draw : changed.draws)
     for (corpus::SceneVertex& v : draw.vertices) v.attributes = {v.x, v.y, v.w};
-  const auto image = check.draw(changed, outputs_of(changed));
-  if (!image || image->index.empty()) return check.verdict();
+  const auto image = trial.draw(changed, outputs_of(changed));
+  if (!image || image->index.empty()) return trial.verdict();
   // Half the distance to the next float32 on either side, and a factor for doubles' own rounding: a bound, no
   // tolerance.
   const auto half_step = [](float value) {
@@ -228,15 +228,15 @@ Verdict decide_position_attributes(const corpus::Scene& scene, const Renderer& r
       for (std::size_t i = 0; i < 2; ++i) {
         const float u = image->attributes[0][3 * e + i];
         if (std::abs(u) == kLargest || std::abs(w) == kLargest) continue;  // beyond range
-        check.looked_at(1);
+        trial.looked_at(1);
         const double position = (i == 0 ? x : y) + 0.5;
         const double expected = position * static_cast<double>(w);
         if (!(std::abs(static_cast<double>(u) - expected) <= half_step(u) + position * half_step(w)))
-          check.differs("attribute X or Y over attribute W", x, y, std::to_string(position),
+          trial.differs("attribute X or Y over attribute W", x, y, std::to_string(position),
                         text(u) + " over " + text(w));
       }
     }
-  return check.verdict();
+  return trial.verdict();
 }
 
 constexpr Property kProperties[] = {

@@ -19,7 +19,7 @@
 #include <vector>
 
 #include "oracle/oracle.hpp"
-#include "properties/machinery/check.hpp"
+#include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
 

@@ -121,7 +121,7 @@ std::string decide_clipping(const TriangleCase& c, std::atomic<std::uint64_t>& c
     for (const ClipTo to : {ClipTo::view_volume, ClipTo::guard_band}) {
       const Polygon<mpq_class> polygon = clipped<mpq_class>(c.vertices, c.width, c.height, to, depth);
       const int d = facing(c.vertices);
-      for (const Corner<mpq_class>& corner : polygon) {
+      for (const ClipCorner<mpq_class>& corner : polygon) {
         if (d != 0 && corner.w <= 0) return "W <= 0 after clipping" + c.text();
       }
       if (d == 0) {
@@ -166,8 +166,8 @@ TEST(TextbookPipeline, FrustumCullingDropsNothingThatIsSeen) {
     const TriangleCase c = random_triangle(n, false);
     if (!c.all_finite()) return "";
     const Polygon<mpq_class> corners = polygon_of<mpq_class>(c.vertices);
-    std::vector<Plane<mpq_class>> planes = side_planes<mpq_class>(c.width, c.height, 0);
-    for (const Plane<mpq_class>& plane : depth_planes<mpq_class>()) planes.push_back(plane);
+    std::vector<ClipPlane<mpq_class>> planes = side_planes<mpq_class>(c.width, c.height, 0);
+    for (const ClipPlane<mpq_class>& plane : depth_planes<mpq_class>()) planes.push_back(plane);
     if (!outside<mpq_class>(corners, planes)) return "";
     ++culled;
     const std::vector<std::uint32_t> counts = c.counts(Conservative::none, DepthMode::clip);

@@ -43,9 +43,9 @@ struct Correspondence {
 };
 
 // Collects the verdict on one case.
-class Check {
+class Trial {
  public:
-  explicit Check(const Renderer& renderer) : renderer_(renderer) {}
+  explicit Trial(const Renderer& renderer) : renderer_(renderer) {}
 
   // The renderer's image of the scene. When it returns another status than ok, that is a difference and there is no
   // image.
@@ -82,7 +82,7 @@ class Check {
   };
   std::optional<Facings> draw_facings(const corpus::Scene& scene);
 
-  Verdict verdict() const { return verdict_; }
+  TrialResult verdict() const { return verdict_; }
 
  private:
   std::optional<corpus::Image> image_of(corpus::Frame& frame, std::span<const Draw> draws);
@@ -91,7 +91,7 @@ class Check {
                   bool differs);
 
   const Renderer& renderer_;
-  Verdict verdict_;
+  TrialResult verdict_;
 };
 
 std::string text(float value);

@@ -30,7 +30,6 @@ set_source_files_properties(${white_box} PROPERTIES INCLUDE_DIRECTORIES ${PROJEC
 if(SUREFILL_REFERENCE_ONLY)
   target_compile_definitions(surefill_tests PRIVATE SUREFILL_REFERENCE_ONLY)
 else()
-  find_package(hwy REQUIRED)
   define_for(${tests}/engine/tests/batch_bounds_test.cpp ${tests}/engine/tests/hashes_test.cpp
     ${tests}/engine/tests/paths_test.cpp DEFINE ${SUREFILL_HIGHWAY})
   target_link_libraries(surefill_tests PRIVATE hwy::hwy)

@@ -3,10 +3,11 @@
 """The same bits elsewhere: builds the engine for other machines, and with other compilers and options, runs every line of
 corpus/hashes.txt there, and prints a table.
 
-usage: elsewhere/run.py [--packages] [--reference] NAME...
+usage: elsewhere/run.py [--packages] [--reference] [--scenes PROGRAM] [--frames N] NAME...
 
 A NAME is an architecture, a level (compiler and options for this machine), or one of the groups `architectures` and `levels`.
---packages prints the Debian packages that they need, and does nothing else. --reference runs the reference path alone.
+--packages prints the Debian packages that they need, and does nothing else. --reference builds and runs the reference path alone.
+--scenes names surefill_hashed_scenes of this machine, if it is built already. --frames draws N random frames on both paths instead.
 Builds go to build/elsewhere/NAME. Exit 0: all lines are equal everywhere; 1: not; 2: wrong usage.
 """
 import concurrent.futures
@@ -97,8 +98,8 @@ def called(command, log=None, **more):
     return done.stdout
 
 
-def build(name, machine, targets):
-    folder = BUILD / name
+def build(name, machine, targets, reference_only=False):
+    folder = BUILD / (f"{name}-reference" if reference_only else name)
     folder.mkdir(parents=True, exist_ok=True)
     headers = BUILD / "highway"
     if not headers.exists():
@@ -109,41 +110,60 @@ def build(name, machine, targets):
     if name in ARCHITECTURES:
         options += [f"-Dhwy_DIR={ROOT}/elsewhere/highway", f"-DSUREFILL_HIGHWAY_HEADERS={headers}", "-DCMAKE_BUILD_TYPE=Release",
                     "-DCMAKE_TRY_COMPILE_TARGET_TYPE=STATIC_LIBRARY"]
+    if reference_only:
+        options.append("-DSUREFILL_REFERENCE_ONLY=ON")
     called(["cmake", "-G", "Ninja", "-S", ROOT, "-B", folder, *options, *machine.cmake], folder / "configure.log")
     called(["cmake", "--build", folder, "--target", *targets], folder / "build.log")
     return folder / "elsewhere"
 
 
-def random_scenes():
+def random_scenes(program):
     """The folder of random scenes, written by a program of this machine."""
     scenes = BUILD / "scenes"
-    programs = build("here", Machine("g++", cmake=["-DSUREFILL_REFERENCE_ONLY=ON", "-DCMAKE_BUILD_TYPE=Release"]), ["surefill_hashed_scenes"])
-    called([programs / "surefill_hashed_scenes", scenes])
+    if program is None:
+        here = Machine("g++", cmake=["-DCMAKE_BUILD_TYPE=Release"])
+        program = build("here", here, ["surefill_hashed_scenes"], True) / "surefill_hashed_scenes"
+    called([program, scenes])
     return scenes
 
 
-def lines_equal(machine, programs, scenes, path):
-    """What drew, how many lines are equal, and of how many; as many processes as there are processors."""
-    program = [*machine.run, programs / f"surefill_hashes{machine.ending}"]
-    if path == "reference":
-        program.append("--reference")
+def in_parts(command, of_part):
+    """The outputs of as many processes as there are processors; of_part(n) are the arguments of one."""
     environment = os.environ | {"WINEDEBUG": "-all", "WINEPREFIX": str(BUILD / "wine")}
 
     def part(n):
-        command = [*program, "--part", f"{n}/{PARTS}", ROOT / "corpus" / "hashes.txt", ROOT / "corpus" / "cases", scenes]
-        done = subprocess.run([str(word) for word in command], capture_output=True, text=True, check=False, env=environment)
-        last = (done.stdout.strip().splitlines() or [""])[-1]
-        if not last.endswith("lines equal"):
-            raise RuntimeError(f"no answer (exit status {done.returncode}): {' '.join(map(str, command))}\n{done.stdout}{done.stderr}")
-        who, _, rest = last.rpartition(": ")
-        equal, _, lines = rest.removesuffix(" lines equal").partition(" of ")
+        done = subprocess.run([str(word) for word in [*command, *of_part(n)]], capture_output=True, text=True, check=False, env=environment)
+        if done.returncode not in (0, 1) or not done.stdout:
+            raise RuntimeError(f"no answer (exit status {done.returncode}): {command[-1]}\n{done.stdout}{done.stderr}")
         if done.returncode != 0:
             print("\n".join(done.stdout.strip().splitlines()[:5]), file=sys.stderr)
-        return who, int(equal), int(lines)
+        return done.stdout.strip().splitlines()[-1]
 
     with concurrent.futures.ThreadPoolExecutor(PARTS) as pool:
-        answers = list(pool.map(part, range(PARTS)))
-    return answers[0][0], sum(a[1] for a in answers), sum(a[2] for a in answers)
+        return list(pool.map(part, range(PARTS)))
+
+
+def lines_equal(machine, programs, scenes, path):
+    """What drew, how many lines are equal, and of how many."""
+    command = [*machine.run, programs / f"surefill_hashes{machine.ending}", *(["--reference"] if path == "reference" else [])]
+    corpus = ROOT / "corpus"
+    answers = in_parts(command, lambda n: ["--part", f"{n}/{PARTS}", corpus / "hashes.txt", corpus / "cases", scenes])
+    counts = [re.fullmatch(r"(.*): (\d+) of (\d+) lines equal", answer) for answer in answers]
+    return counts[0][1], sum(int(c[2]) for c in counts), sum(int(c[3]) for c in counts)
+
+
+def frames(name, number):
+    """Random frames on both paths, with a seed for each process: whether there is no difference."""
+    machine = MACHINES[name]
+    programs = build(name, machine, ["surefill_frames"])
+    started = time.monotonic()
+    command = [*machine.run, programs / f"surefill_frames{machine.ending}"]
+    right = True
+    for answer in in_parts(command, lambda n: [(number + PARTS - 1) // PARTS, 1 + 1000000 * n]):
+        right = right and answer.endswith(": 0 differences")
+        print(f"{name:<26} fast path against reference path: {answer}", flush=True)
+    print(f"{name:<26} run in {time.monotonic() - started:.0f} s", flush=True)
+    return right
 
 
 def version(command, option="--version"):
@@ -156,7 +176,7 @@ def rows(name, scenes, reference_only):
     """The lines of the table for one machine, and whether all is equal."""
     machine = MACHINES[name]
     started = time.monotonic()
-    programs = build(name, machine, ["surefill_hashes", "surefill_sizes"])
+    programs = build(name, machine, ["surefill_hashes", "surefill_sizes"], reference_only)
     built = time.monotonic() - started
     called([*machine.run, programs / f"surefill_sizes{machine.ending}"], env=os.environ | {"WINEDEBUG": "-all", "WINEPREFIX": str(BUILD / "wine")})
     compiler = f"clang {version(machine.compiler)}" if "clang" in machine.compiler else f"g++ {version(machine.compiler, '-dumpfullversion')}"
@@ -177,27 +197,34 @@ def rows(name, scenes, reference_only):
 
 def main():
     arguments = sys.argv[1:]
+    given = {}
+    for option in ("--scenes", "--frames"):
+        if option in arguments[:-1]:
+            at = arguments.index(option)
+            given[option] = arguments[at + 1]
+            del arguments[at : at + 2]
     flags = {a for a in arguments if a.startswith("--")}
     names = []
     for argument in arguments:
         if not argument.startswith("--"):
             names += {"architectures": list(ARCHITECTURES), "levels": list(LEVELS)}.get(argument, [argument])
     unknown = [n for n in names if n not in MACHINES] + sorted(flags - {"--packages", "--reference"})
-    if unknown or not names:
+    if unknown or not names or not given.get("--frames", "1").isdigit():
         print(__doc__ + f"\nknown: {' '.join(MACHINES)}\n" + (f"unknown: {' '.join(unknown)}" if unknown else ""), file=sys.stderr)
         return 2
     if "--packages" in flags:
         print(" ".join(dict.fromkeys(package for name in names for package in MACHINES[name].packages)))
         return 0
-    scenes = random_scenes()
     failed = []
+    scenes = None if "--frames" in given else random_scenes(given.get("--scenes"))
     for name in names:
         try:
-            if not rows(name, scenes, "--reference" in flags):
-                failed.append(name)
+            right = frames(name, int(given["--frames"])) if "--frames" in given else rows(name, scenes, "--reference" in flags)
         except (RuntimeError, OSError) as error:
-            failed.append(name)
+            right = False
             print(f"{name}: {error}", file=sys.stderr, flush=True)
+        if not right:
+            failed.append(name)
     if failed:
         print(f"not the same bits: {' '.join(failed)}", file=sys.stderr)
     return 1 if failed else 0

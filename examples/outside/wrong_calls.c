@@ -406,9 +406,9 @@ static void check_to_pixel(void) {
   surefill_viewport viewport = {0, 0, 4, 3, 0, 1, 0, 0};
   surefill_vertex in[2] = {{0, 0, 0, 1}, {1, 1, 1, 1}}, out[2] = {{7, 7, 7, 7}, {7, 7, 7, 7}};
   check("null viewport", surefill_to_pixel(NULL, in, 2, out) == SUREFILL_NULL_VIEWPORT);
-  check("null clip vertices", surefill_to_pixel(&viewport, NULL, 2, out) == SUREFILL_DRAW_VERTICES);
-  check("null out", surefill_to_pixel(&viewport, in, 2, NULL) == SUREFILL_DRAW_VERTICES);
-  check("in place", surefill_to_pixel(&viewport, in, 2, in) == SUREFILL_DRAW_VERTICES);
+  check("null clip vertices", surefill_to_pixel(&viewport, NULL, 2, out) == SUREFILL_TO_PIXEL_VERTICES);
+  check("null out", surefill_to_pixel(&viewport, in, 2, NULL) == SUREFILL_TO_PIXEL_VERTICES);
+  check("in place", surefill_to_pixel(&viewport, in, 2, in) == SUREFILL_TO_PIXEL_VERTICES);
   viewport.clip_y_down = 256;
   check("clip y", surefill_to_pixel(&viewport, in, 2, out) == SUREFILL_VIEWPORT);
   viewport.clip_y_down = 0, viewport.height = (float)INFINITY;

@@ -63,6 +63,7 @@ struct Diagnostics;  // surefill/diagnostics.hpp
 // takes a pass of its own over the triangles, on the calling thread.
 SUREFILL_API Status render(const Target& target, std::span<const Draw> draws,
                            Statistics* statistics = nullptr) noexcept;
+// The same with threads, working memory, a path and diagnostics as Options has them.
 SUREFILL_API Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
                            const Options& options) noexcept;
 

@@ -21,10 +21,10 @@ target_compile_options(surefill_flags INTERFACE $<${surefill_gnu_like}:-ffp-cont
 # For code whose own speed does not matter, tests and command lines: it compiles in half the time.
 add_library(surefill_quick_build INTERFACE)
 target_compile_options(surefill_quick_build INTERFACE $<$<AND:$<CONFIG:Release>,${surefill_gnu_like}>:-O1>)
-# For whatever includes Highway. Left out are: an instruction set that would add size and little speed between its neighbours; vectors
+# For whatever includes Highway. Left out are: instruction sets that would add size and little speed to their neighbours; vectors
 # of a size that only the machine knows, of which no structure can be made; NEON of 32 bits, which has no doubles. On ARM nothing is
 # chosen at run time (the second definition says so to Highway): what there is to choose, NEON, is there.
-set(SUREFILL_HIGHWAY_LEFT_OUT "HWY_SSSE3|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV")
+set(SUREFILL_HIGHWAY_LEFT_OUT "HWY_SSSE3|HWY_AVX3_DL|HWY_SVE|HWY_SVE2|HWY_SVE_256|HWY_SVE2_128|HWY_RVV")
 if(CMAKE_SIZEOF_VOID_P EQUAL 4)
   string(APPEND SUREFILL_HIGHWAY_LEFT_OUT "|HWY_NEON")
 endif()

@@ -15,6 +15,7 @@ import dataclasses
 import os
 import pathlib
 import re
+import resource
 import subprocess
 import sys
 import time
@@ -156,13 +157,13 @@ def frames(name, number):
     """Random frames on both paths, with a seed for each process: whether there is no difference."""
     machine = MACHINES[name]
     programs = build(name, machine, ["surefill_frames"])
-    started = time.monotonic()
+    clock = Clock()
     command = [*machine.run, programs / f"surefill_frames{machine.ending}"]
     right = True
     for answer in in_parts(command, lambda n: [(number + PARTS - 1) // PARTS, 1 + 1000000 * n]):
         right = right and answer.endswith(": 0 differences")
         print(f"{name:<26} fast path against reference path: {answer}", flush=True)
-    print(f"{name:<26} run in {time.monotonic() - started:.0f} s", flush=True)
+    print(f"{name:<26} run in {clock}", flush=True)
     return right
 
 
@@ -172,12 +173,27 @@ def version(command, option="--version"):
     return said.group() if said else "?"
 
 
+class Clock:
+    """Seconds since it was made, and those that a processor worked for them."""
+
+    def __init__(self):
+        self.begun, self.used = time.monotonic(), self.processor()
+
+    @staticmethod
+    def processor():
+        usage = resource.getrusage(resource.RUSAGE_CHILDREN)
+        return usage.ru_utime + usage.ru_stime
+
+    def __str__(self):
+        return f"{time.monotonic() - self.begun:.0f} s ({self.processor() - self.used:.0f} s of a processor)"
+
+
 def rows(name, scenes, reference_only):
     """The lines of the table for one machine, and whether all is equal."""
     machine = MACHINES[name]
-    started = time.monotonic()
+    clock = Clock()
     programs = build(name, machine, ["surefill_hashes", "surefill_sizes"], reference_only)
-    built = time.monotonic() - started
+    built = str(clock)
     called([*machine.run, programs / f"surefill_sizes{machine.ending}"], env=os.environ | {"WINEDEBUG": "-all", "WINEPREFIX": str(BUILD / "wine")})
     compiler = f"clang {version(machine.compiler)}" if "clang" in machine.compiler else f"g++ {version(machine.compiler, '-dumpfullversion')}"
     emulated = f"{pathlib.Path(machine.emulator).name} {version(machine.emulator)}" if machine.emulator else "not emulated"
@@ -187,11 +203,10 @@ def rows(name, scenes, reference_only):
     for path in machine.paths:
         if reference_only and path != "reference":
             continue
-        started = time.monotonic()
+        clock = Clock()
         who, equal, lines = lines_equal(machine, programs, scenes, path)
         right = right and equal == lines
-        print(f"{name:<26} {compiler:<16} {who:<10} {equal} of {lines} equal   {emulated:<28} built in {built:.0f} s, run in "
-              f"{time.monotonic() - started:.0f} s", flush=True)
+        print(f"{name:<26} {compiler:<14} {who:<10} {equal} of {lines} equal   {emulated:<28} built in {built}, run in {clock}", flush=True)
     return right
 
 

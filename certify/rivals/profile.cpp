@@ -7,6 +7,7 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 
@@ -21,8 +22,9 @@ using corpus::Image;
 using corpus::Scene;
 
 constexpr double kCertainDistance = 1.0 / 16;
-// Relative error of an edge function in long double, with room to spare.
-constexpr long double kRoundings = 0x1p-55L;
+// Relative error of an edge function in long double, which is a double at least, with room to spare: 2^9 roundings.
+static_assert(std::numeric_limits<long double>::digits >= 53);
+constexpr long double kRoundings = std::numeric_limits<long double>::digits >= 64 ? 0x1p-55L : 0x1p-44L;
 
 // The plane equations of section 2, in long double.
 struct Edges {

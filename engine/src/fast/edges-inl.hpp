@@ -30,7 +30,7 @@ using Float = hn::Vec<FloatTag>;
 // The low Lanes bits: which lanes are set.
 template <class D, class M>
 HWY_INLINE std::uint32_t Bits(D d, M mask) {
-#if HWY_TARGET == HWY_AVX3
+#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX3
   (void)d;
   return static_cast<std::uint32_t>(mask.raw);
 #elif HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128

@@ -80,10 +80,10 @@ class Arguments {
       }
     }
     if (status != Status::ok && statistics.dropped != kMark) fail("a refused call wrote the statistics");
+    if (status != Status::ok) return status;  // the list of draws may be none
     std::size_t triangles = 0;
     for (const Draw& draw : draws_) triangles += draw.indices.size() / 3;
-    if (status == Status::ok && with_statistics_ && statistics.triangles() != triangles)
-      fail("the statistics do not add up to the triangles");
+    if (with_statistics_ && statistics.triangles() != triangles) fail("the statistics do not add up to the triangles");
     return status;
   }
 

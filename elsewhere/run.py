@@ -73,16 +73,17 @@ ARCHITECTURES = {
 
 
 def level(compiler, flags, **more):
-    return Machine(compiler, flags=flags, cmake=["-DCMAKE_BUILD_TYPE=None"], **more)
+    c_compiler = compiler.replace("clang++", "clang").replace("g++", "gcc")
+    return Machine(compiler, flags=flags, cmake=["-DCMAKE_BUILD_TYPE=None", f"-DCMAKE_C_COMPILER={c_compiler}"], **more)
 
 
-CLANG = ["clang-19", "lld-19"]
+CLANG = ["clang-19", "lld-19", "llvm-19"]  # CMake takes the archiver of clang's version
 LEVELS = {f"g++{flag}": level("g++", flag) for flag in ("-O0", "-O1", "-O2", "-O3", "-Os")}
 LEVELS |= {"g++-march=native": level("g++", "-O2 -march=native"), "g++-flto": level("g++", "-O2 -flto=auto")}
 LEVELS |= {f"clang++-19{flag}": level("clang++-19", flag, packages=CLANG) for flag in ("-O0", "-O2", "-O3")}
 LEVELS |= {
     "clang++-19-march=native": level("clang++-19", "-O2 -march=native", packages=CLANG),
-    "clang++-19-flto": level("clang++-19", "-O2 -flto=thin", link="-fuse-ld=lld-19", packages=CLANG),
+    "clang++-19-flto": level("clang++-19", "-O2 -flto=thin", link="-fuse-ld=lld", packages=CLANG),
     "clang++-19-stdlib=libc++": level("clang++-19", "-O2 -stdlib=libc++", packages=[*CLANG, "libc++-19-dev", "libc++abi-19-dev"]),
 }
 MACHINES = ARCHITECTURES | LEVELS

@@ -98,7 +98,10 @@ class BatchBounds {
     set_up(0, count, diagnostics, [this](const fast::Record& r, const std::vector<std::uint32_t>& listed) {
       record_[r.position] = r, is_drawn_[r.position] = true, listed_[r.position] = listed;
     });
-    if (diagnostics.small + diagnostics.medium + diagnostics.large != drawn()) return "the diagnostics count lanes";
+    // Those that are tiny and cover nothing have no record.
+    const std::uint64_t counted = diagnostics.small + diagnostics.medium + diagnostics.large;
+    if (counted < drawn() || counted - diagnostics.small > drawn() || counted > count)
+      return "the diagnostics count lanes";
     for (std::uint32_t lane = 0; lane < count; ++lane) check(lane);
     expect(diagnostics.clipped == clipped_, "the diagnostics count what Grid clips");
     if (count > 1 && random_.one_in(8)) in_two(count, diagnostics);
@@ -271,15 +274,19 @@ class BatchBounds {
     const std::int64_t left = (x[1] - x[0]) * (y[2] - y[0]), right = (y[1] - y[0]) * (x[2] - x[0]);
     sign_ = left > right ? 1 : left < right ? -1 : 0;
     const bool culled = draw_.cull == Cull::front ? sign_ > 0 : draw_.cull == Cull::back && sign_ < 0;
-    const bool live = is_drawn_[lane];
-    expect(live == (reached && sign_ != 0 && !culled), "what is live reaches samples, has an area and is not culled");
-    if (!live || !broken_.empty()) return;
-    take_box(lane);
-    expect(x0_ == box[0] && x1_ == box[1] && y0_ == box[2] && y1_ == box[3], "the box is that of the corners");
+    const bool live = is_drawn_[lane], may_cover = reached && sign_ != 0 && !culled;
     for (std::size_t i = 0; i < 3; ++i) {
       const SamplePosition &j = corner_[(i + 1) % 3], &k = corner_[(i + 2) % 3];
       line_[i] = {j.y - k.y, k.x - j.x, -((j.y - k.y) * j.x + (k.x - j.x) * j.y), true};
     }
+    expect(!live || may_cover, "what is live reaches samples, has an area and is not culled");
+    if (!live && may_cover) {
+      for_some_samples([&](int x_, int y_) { expect(!is_inside(x_, y_), "what is not live covers nothing"); });
+      expect(x1_ - x0_ < 4 && y1_ - y0_ < 4, "what covers nothing and is looked at sample by sample is tiny");
+    }
+    if (!live || !broken_.empty()) return;
+    take_box(lane);
+    expect(x0_ == box[0] && x1_ == box[1] && y0_ == box[2] && y1_ == box[3], "the box is that of the corners");
     triangle_.set_up(*v[0], *v[1], *v[2]);  // its depth is that of the triangle as it was
     what_is_set_up(lane, v);
   }
@@ -361,12 +368,25 @@ class BatchBounds {
     }
     doubt(small ? r.small.doubt : r.has(fast::Record::kInteger) ? 0 : 2 * 64, small ? 24 : 22, small ? 16 : 64);
     for_some_samples([&](int x, int y) {
-      bool inside = true;
-      for (std::size_t i = 0; i < 3; ++i) inside = inside && is_inside(i, x, y);
-      if (inside) expect(is_listed(lane, x, y), "a tile in which something is covered has the triangle in its list");
+      if (is_inside(x, y))
+        expect(is_listed(lane, x, y), "a tile in which something is covered has the triangle in its list");
     });
+    if (r.has(fast::Record::kTiny)) cover(r);
     range(r, v);
     depth(lane, v);
+  }
+
+  // A tiny triangle's masks are what it covers, and nothing in cells that its box does not meet.
+  void cover(const fast::Record& r) {
+    expect(r.has(fast::Record::kSmall) && x1_ - x0_ < 4 && y1_ - y0_ < 4, "`tiny` is 4 x 4 samples");
+    for (int y = origin_y_; y < origin_y_ + 8; ++y) {
+      for (int x = origin_x_; x < origin_x_ + 8; ++x) {
+        const std::uint32_t cells = r.small.cover[(x - origin_x_) >> 2];
+        const bool covered = (cells >> (16 * ((y - origin_y_) >> 2) + 4 * (y & 3) + (x & 3)) & 1) != 0;
+        const bool in_box = x >= x0_ && x <= x1_ && y >= y0_ && y <= y1_;
+        expect(covered == (in_box && is_inside(x, y)), "the samples that a tiny triangle covers are known");
+      }
+    }
   }
 
   // It holds every sample that is covered; and no more than what float32 quotients add, and one sample offset for both
@@ -402,6 +422,8 @@ class BatchBounds {
     const int sign = edge_sign(i, at(x, y));
     return (sign != 0 ? sign : tie_sign(line_[i].a, line_[i].b, job_.shift)) == sign_;
   }
+
+  bool is_inside(int x, int y) { return is_inside(0, x, y) && is_inside(1, x, y) && is_inside(2, x, y); }
 
   // Edges in integers about an origin, for the samples of a box.
   struct Integers {

@@ -17,6 +17,7 @@ struct alignas(64) Batch {
   // What the records get.
   alignas(64) std::int32_t first_x[kBatch], last_x[kBatch], first_y[kBatch], last_y[kBatch];
   std::int32_t a[3][kBatch], b[3][kBatch], e[3][kBatch], doubt[kBatch];  // of small lanes
+  alignas(64) std::uint32_t cover[2][kBatch];                            // of tiny lanes
   alignas(64) float high[kBatch], high_x[kBatch], high_y[kBatch], low[kBatch], low_x[kBatch], low_y[kBatch];
   alignas(64) float low_error[kBatch], z_least[kBatch], z_most[kBatch];
   alignas(64) double scaled_a[3][kBatch], scaled_b[3][kBatch], scaled_c[3][kBatch];  // of lanes that are not small
@@ -28,6 +29,8 @@ struct alignas(64) Batch {
   std::uint32_t reached;     // the box holds a sample
   std::uint32_t small;       // the box lies within 4 x 4 cells
   std::uint32_t medium;      // the box lies within 8 x 8 blocks
+  std::uint32_t tiny;        // as in Record
+  std::uint32_t empty;       // tiny, and no sample is covered
   std::uint32_t thin;        // as in Record
   std::uint32_t slow_depth;  // as in Record
   std::uint32_t clip;        // as in Record

@@ -28,8 +28,13 @@ constexpr std::size_t kCellLanes = hn::MaxLanes(CellInt());
 // Sample k of a cell is (k & 3, k >> 2); so is cell k of an area, and area k of a tile.
 alignas(64) constexpr std::int32_t kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
 alignas(64) constexpr std::int32_t kRow[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
-alignas(64) constexpr float kColumnFloat[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
-alignas(64) constexpr float kRowFloat[16] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+// The same as floats; then of the next cell to the right, or below.
+alignas(64) constexpr float kColumnFloat[32] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3,
+                                                4, 5, 6, 7, 4, 5, 6, 7, 4, 5, 6, 7, 4, 5, 6, 7};
+alignas(64) constexpr float kRowFloat[32] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3,
+                                             4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7};
+alignas(64) constexpr std::uint32_t kSampleBit[16] = {1,     2,     4,     8,     0x10,   0x20,   0x40,   0x80,
+                                                      0x100, 0x200, 0x400, 0x800, 0x1000, 0x2000, 0x4000, 0x8000};
 
 // The positions of the set bits of a byte, in order in memory, and zeros.
 struct BitPositions {

@@ -11,7 +11,7 @@
 #endif
 
 #include "fast/cells-inl.hpp"
-#include "fast/fragments-inl.hpp"
+#include "fast/hierarchical_z-inl.hpp"
 #include "hwy/cache_control.h"
 
 HWY_BEFORE_NAMESPACE();
@@ -30,9 +30,9 @@ struct TilePlane {
 
 // kWinner implies kDepth. The tiles have what is asked for.
 template <bool kDepth, bool kWinner, bool kCount>
-class TileDrawer : public Fragments {
+class TileDrawer : public HierarchicalZ {
  public:
-  using Fragments::Fragments;
+  using HierarchicalZ::HierarchicalZ;
 
   // Draws what the pieces have for each tile of the row.
   void Run(std::span<const Piece> pieces, std::uint32_t* list) {
@@ -71,9 +71,7 @@ class TileDrawer : public Fragments {
   void Begin(int column) {
     SelectTile(column);
     next_is_open_ = column + 1 < tiles_.end && tiles_.is_open(column + 1);
-    if (!kDepth) return;
-    for (std::size_t block = 0; block < kTileBlocks; ++block) UpdateBlockFar(block);
-    UpdateTileFar();
+    if (kDepth) UpdateFar();
   }
   void End(int column) {
     if (kDepth) tiles_.far[column - tiles_.begin] = tile_far_;
@@ -122,8 +120,8 @@ class TileDrawer : public Fragments {
         }
         if (HWY_LIKELY(!r.has(Record::kClip))) {
           // In the order of the list in each cell, so that of equal depths the first stays; depth alone does not tell.
-          if (((r.x0 ^ r.x1) | (r.y0 ^ r.y1)) < kCellSize && !(kWinner && IsNoted(r))) {
-            DrawOne(r);
+          if (r.has(Record::kTiny) && !(kWinner && IsNoted(r))) {
+            DrawTiny(r);
             continue;
           }
           AddSmall(r, kDepth);
@@ -212,28 +210,32 @@ class TileDrawer : public Fragments {
     }
   }
 
-  // Within one cell: drawn at once, as far as its vectors hold rows of the box.
-  HWY_INLINE void DrawOne(const Record& r) {
+  // ---- tiny: within 4 x 4 samples, whose coverage is known: drawn at once
+  HWY_INLINE void DrawTiny(const Record& r) {
+    const int column = ((r.x0 & ~3) - tile_x_) >> kCellLog2, row = ((r.y0 & ~3) - tile_y_) >> kCellLog2;
+    const auto some = [](std::uint32_t samples) { return static_cast<std::uint32_t>(samples != 0); };
+    const std::uint32_t left = r.small.cover[0], right = r.small.cover[1];
+    std::uint32_t cells =
+        some(left & 0xFFFF) | some(right & 0xFFFF) << 1 | some(left >> 16) << 2 | some(right >> 16) << 3;
+    for (; cells != 0; cells &= cells - 1) {
+      const int n = std::countr_zero(cells), x = column + (n & 1), y = row + (n >> 1);
+      const std::uint32_t covered = r.small.cover[n & 1] >> (n & 2) * 8 & 0xFFFF;
+      if (HWY_UNLIKELY(((x | y) & ~15) != 0)) continue;  // of another tile
+      DrawTinyCell(r, covered, kCellOffsets.column[x + 4] + kCellOffsets.row[y + 4], kColumnFloat + (n & 1) * 16,
+                   kRowFloat + (n >> 1) * 16);
+    }
+  }
+  HWY_INLINE void DrawTinyCell(const Record& r, std::uint32_t samples, std::size_t cell, const float* columns,
+                               const float* rows) {
     const CellInt d;
     const CellUint du;
     const CellFloat df;
-    const int column = (r.x0 - tile_x_) >> kCellLog2, row = (r.y0 - tile_y_) >> kCellLog2;
-    const std::size_t cell = kCellOffsets.column[column + 4] + kCellOffsets.row[row + 4];
-    const std::size_t first = (r.y0 & 3) * std::size_t{4}, last = (r.y1 & 3) * std::size_t{4} + 3;
     for (std::size_t i = 0; i < 16; i += kCellLanes) {
-      if (kCellLanes < 16 && (last < i || first >= i + kCellLanes)) continue;
-      hn::Vec<CellInt> value;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const auto step = hn::Add(hn::Mul(hn::Set(d, r.small.a[k]), hn::Load(d, kColumn + i)),
-                                  hn::Mul(hn::Set(d, r.small.b[k]), hn::Load(d, kRow + i)));
-        const auto e = hn::Add(hn::Set(d, r.small.e[k]), step);
-        value = k == 0 ? e : hn::Min(value, e);
-      }
-      const auto covered = hn::Not(hn::Lt(value, hn::Zero(d)));
-      const auto doubtful = IsDoubtful(hn::BitCast(du, value), r.small.doubt);
-      if constexpr (kCount) CountLanes(covered, cell + i);
+      if (kCellLanes < 16 && (samples >> i & ((1u << kCellLanes) - 1)) == 0) continue;
+      const auto covered = hn::Ne(hn::And(hn::Set(du, samples), hn::Load(du, kSampleBit + i)), hn::Zero(du));
+      if constexpr (kCount) CountLanes(hn::RebindMask(d, covered), cell + i);
       if constexpr (kDepth) {
-        const auto x = hn::Load(df, kColumnFloat + i), y = hn::Load(df, kRowFloat + i);
+        const auto x = hn::Load(df, columns + i), y = hn::Load(df, rows + i);
         const auto along = [&](float by_x, float by_y) {
           return hn::Add(hn::Mul(hn::Set(df, by_x), x), hn::Mul(hn::Set(df, by_y), y));
         };
@@ -246,13 +248,16 @@ class TileDrawer : public Fragments {
         const auto unknown = Fragment(hn::RebindMask(df, covered), low, high, hn::Set(du, Ordinal(r)), cell + i);
         if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) ExactLanes(r, Bits(df, unknown), cell + i, true);
       }
-      if (kExactCoverage && HWY_UNLIKELY(!hn::AllFalse(du, doubtful))) SettleLanes(r, Bits(du, doubtful), cell + i);
     }
   }
 
-  // Does a small triangle that is noted meet the cell of this one?
+  // Does a small triangle that is noted meet a cell of this tiny one?
   HWY_INLINE bool IsNoted(const Record& r) const {
-    return (noted_[((r.y0 - tile_y_) >> kCellLog2) + 4] >> (((r.x0 - tile_x_) >> kCellLog2) + 4) & 1) != 0;
+    if (slots_ == 0) return false;
+    const std::uint32_t columns = r.x0 >> kCellLog2 == r.x1 >> kCellLog2 ? 1 : 3;
+    const int column = ((r.x0 & ~3) - tile_x_) >> kCellLog2;
+    const int first = ((r.y0 & ~3) - tile_y_) >> kCellLog2, last = ((r.y1 & ~3) - tile_y_) >> kCellLog2;
+    return ((noted_[first + 4] | noted_[last + 4]) >> (column + 4) & columns) != 0;
   }
   void ForgetSmall() {
     slots_ = 0, small_doubt_ = 0;
@@ -302,13 +307,7 @@ class TileDrawer : public Fragments {
       const double z = plane.z + (r.large.z_x * area_x + r.large.z_y * area_y);
       if (!kThin && hides) {
         cells &= kCellsOfBlocks[VisibleBlocks(z, dips, r.z_most, n)];
-        std::uint32_t whole = cells & full;  // of each whole block, its first cell
-        whole &= whole >> 1, whole &= (whole >> 4) & 0x0505;
-        for (; whole != 0; whole &= whole - 1) {
-          const auto cell = static_cast<std::uint32_t>(std::countr_zero(whole));
-          block_list[blocks++] =
-              static_cast<std::uint8_t>(((n >> 2) * 2 + (cell >> 3)) * 8 + (n & 3) * 2 + (cell >> 1 & 1));
-        }
+        blocks += ListBlocks(cells & full, n, block_list + blocks);
       }
       if (cells == 0) continue;
       if (depth) PlaceDepth(n);
@@ -332,6 +331,16 @@ class TileDrawer : public Fragments {
     for (std::size_t i = 0; i < blocks; ++i) UpdateBlockFar(block_list[i]);
     if (blocks != 0) UpdateTileFar();
   }
+  // The blocks that are whole in a set of cells of area n, as numbers in the tile. Returns how many they are.
+  static HWY_INLINE std::size_t ListBlocks(std::uint32_t cells, std::uint32_t n, std::uint8_t* list) {
+    std::size_t size = 0;
+    cells &= cells >> 1, cells &= (cells >> 4) & 0x0505;  // of each whole block, its first cell
+    for (; cells != 0; cells &= cells - 1) {
+      const auto cell = static_cast<std::uint32_t>(std::countr_zero(cells));
+      list[size++] = static_cast<std::uint8_t>(((n >> 2) * 2 + (cell >> 3)) * 8 + (n & 3) * 2 + (cell >> 1 & 1));
+    }
+    return size;
+  }
   template <bool kThin, bool kRanged>
   HWY_INLINE void DrawListed(const Record& r) {
     if (partly_.size != 0) DrawCells<false, kRanged>();
@@ -346,13 +355,6 @@ class TileDrawer : public Fragments {
     const double high = std::clamp(z + reach * plane.rise + r.large.z_error, least, most);
     if (high < near_ || low > far_) return Clip::out;
     return low > near_ && high < far_ ? Clip::in : Clip::some;
-  }
-
-  // Whether nothing of a triangle is seen where no depth is larger than `there`. Depths that are equal once they are
-  // rounded may leave a smaller identifier in front.
-  HWY_INLINE bool IsHidden(double nearest, float most, float there) const {
-    nearest = std::min<double>(nearest, most);
-    return with_identifiers_ ? static_cast<float>(nearest) > there : nearest >= there;
   }
 
   // The edges at the tile and at its areas. Returns the areas that may be reached.
@@ -438,27 +440,6 @@ class TileDrawer : public Fragments {
       hn::Store(hn::Add(hn::Set(df, area_high_[n]), hn::Load(df, cell_high_ + i)), df, high_ + n * 16 + i);
       hn::Store(hn::Add(hn::Set(df, area_low_[n]), hn::Load(df, cell_low_ + i)), df, low_ + n * 16 + i);
     }
-  }
-
-  // Which of the four blocks of area n may hold something farther than the triangle: bit 0 the upper left one, then to
-  // the right, then below. z: depth at the area's first sample; dips: to less than any in each block.
-  HWY_INLINE std::uint32_t VisibleBlocks(double z, const double (&dips)[4], float most, std::uint32_t n) const {
-    const float* const far = block_far_ + (n >> 2) * 16 + (n & 3) * 2;
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
-    const hn::CappedTag<double, 4> d;
-    const hn::CappedTag<float, 4> df;
-    const hn::CappedTag<float, 2> row;
-    const auto nearest = hn::Min(hn::Add(hn::Set(d, z), hn::LoadU(d, dips)), hn::Set(d, most));
-    const auto there = hn::PromoteTo(d, hn::Combine(df, hn::LoadU(row, far + 8), hn::LoadU(row, far)));
-    const auto hidden =
-        with_identifiers_ ? hn::Gt(hn::PromoteTo(d, hn::DemoteTo(df, nearest)), there) : hn::Ge(nearest, there);
-    return ~Bits(d, hidden) & 15;
-#else
-    std::uint32_t visible = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      visible |= static_cast<std::uint32_t>(!IsHidden(z + dips[i], most, far[(i >> 1) * 8 + (i & 1)])) << i;
-    return visible;
-#endif
   }
 
   // ---- cells
@@ -625,26 +606,6 @@ class TileDrawer : public Fragments {
     whole_tile_ = 0;
   }
 
-  // ---- hierarchical z
-  // Block 8 y + x of the tile: four cells.
-  HWY_INLINE void UpdateBlockFar(std::size_t block) {
-    const CellFloat df;
-    const float* const depth =
-        depth_ + offset_in_tile(static_cast<int>(block & 7) * 8, static_cast<int>(block >> 3) * 8);
-    auto far = hn::Load(df, depth);
-    for (std::size_t n = 0; n < 4; ++n) {
-      const std::size_t cell = (n & 1) * 16 + (n >> 1) * 64;
-      for (std::size_t i = 0; i < kCellSamples; i += kCellLanes) far = hn::Max(far, hn::Load(df, depth + cell + i));
-    }
-    block_far_[block] = hn::GetLane(hn::MaxOfLanes(df, far));
-  }
-  HWY_INLINE void UpdateTileFar() {
-    const CellFloat df;
-    auto far = hn::Load(df, block_far_);
-    for (std::size_t i = kCellLanes; i < kTileBlocks; i += kCellLanes) far = hn::Max(far, hn::Load(df, block_far_ + i));
-    tile_far_ = hn::GetLane(hn::MaxOfLanes(df, far));
-  }
-
   const Record* records_ = nullptr;  // of the first piece at hand
   bool next_is_open_ = false;
   bool ranged_ = false;  // depths are clamped to the records' ranges
@@ -655,8 +616,6 @@ class TileDrawer : public Fragments {
   std::uint32_t noted_[24] = {};  // of each row of cells from -4 on, the columns from -4 on of cells that are noted
   CellList partly_, wholly_;
   std::uint32_t whole_tile_ = 0, whole_areas_[16] = {};
-  float tile_far_ = 0;
-  alignas(64) float block_far_[kTileBlocks];  // no depth in the block is larger
 
   // Slot by slot of small triangles, or area by area of a large one; of that, edge_step_ and the other steps have but
   // the first slot. Steps lead from the first sample of a cell to its others; the rest is at the cells' first samples.

@@ -39,6 +39,7 @@ struct alignas(128) Record {
     kBorder = 256,       // cells may reach beyond the box to samples that must not be drawn
     kByWinding = 512,    // a polygon that Grid has clipped and that turns both ways: sample by sample
     kFirstOfFan = 1024,  // times 1..5: which triangle of a clipped polygon's fan this is
+    kTiny = 8192,        // of a small one: the box lies within 4 x 4 samples, and `cover` is known
   };
 
   union {
@@ -46,10 +47,12 @@ struct alignas(128) Record {
     // of their rounding, the value at the cell's first sample. A sample is inside if all three values are >= 0, outside
     // if one is below -doubt; in between, exact arithmetic tells. doubt is twice the bound, and 0 where the integers
     // are exact and ties are already decided. Depth has a high and a low part, of which the high ones add up exactly;
-    // low_error bounds the error of a sum (docs/precision.md).
+    // low_error bounds the error of a sum (docs/precision.md). cover: the samples of the first cell that are covered and,
+    // 16 bits higher, of the one below it; then of the two to the right.
     struct {
       std::int32_t a[3], b[3], e[3], doubt;
       float high, high_x, high_y, low, low_x, low_y, low_error;
+      std::uint32_t cover[2];
     } small;
     // Edges in double, scaled for a tile's integers: a x + b y + c. Depth about the first sample of the box's first
     // block, its steps, and a bound of the error at any sample of the box.
@@ -64,7 +67,7 @@ struct alignas(128) Record {
   std::uint16_t flags;
 
   bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
-  int fan_triangle() const { return flags / kFirstOfFan; }  // 0: not of a fan
+  int fan_triangle() const { return flags / kFirstOfFan & 7; }  // 0: not of a fan
   // The first sample of the plane of a large triangle.
   int origin_x() const { return x0 & ~(kBlockSize - 1); }
   int origin_y() const { return y0 & ~(kBlockSize - 1); }

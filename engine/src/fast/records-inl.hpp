@@ -45,7 +45,7 @@ class PieceWriter {
     if (has_border_ && TouchesBorder(r)) flags |= Record::kBorder;
     if (small) {
       FillSmall(r, batch, lane);
-      flags |= Record::kSmall;
+      flags |= Record::kSmall | (batch.tiny >> lane & 1) * Record::kTiny;
     } else {
       FillLarge(r, batch, lane);
       flags |= (batch.thin >> lane & 1) * Record::kThin;
@@ -101,6 +101,7 @@ class PieceWriter {
     r.small.high = batch.high[lane], r.small.high_x = batch.high_x[lane], r.small.high_y = batch.high_y[lane];
     r.small.low = batch.low[lane], r.small.low_x = batch.low_x[lane], r.small.low_y = batch.low_y[lane];
     r.small.low_error = batch.low_error[lane];
+    r.small.cover[0] = batch.cover[0][lane], r.small.cover[1] = batch.cover[1][lane];
   }
   static HWY_INLINE void FillLarge(Record& r, const Batch& batch, std::uint32_t lane) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -219,7 +220,7 @@ void SetUp(const TileGrid& grid, Piece& piece, Scratch& scratch, Diagnostics& di
     const std::uint32_t drawn = SetUpBatch(job, first, count, batch, diagnostics.rungs);
     if (HWY_UNLIKELY(batch.clipped != 0)) FindClipped(job, batch, diagnostics.rungs);
     std::uint32_t done = count;
-    for (std::uint32_t lanes = drawn | batch.clipped; lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = (drawn & ~batch.empty) | batch.clipped; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       const bool clipped = HWY_UNLIKELY((batch.clipped >> lane & 1) != 0);
       const auto before = writer.Now();

@@ -332,10 +332,66 @@ HWY_NOINLINE void SetUpDepth(const DrawJob& job, Group& group, bool of_fan, Batc
   StoreDepthRange(job, group.lane, of_fan, batch);
 }
 
+// Which samples are covered in lanes whose box lies within 4 x 4 samples, unless one is within doubt of an edge.
+HWY_NOINLINE void CoverTiny(Batch& batch) {
+  const hn::CappedTag<std::int32_t, kBatch> d;
+  const hn::RebindToUnsigned<decltype(d)> du;
+  const auto three = hn::Set(du, 3);
+  for (std::uint32_t lane = 0; lane < kBatch; lane += kWide) {
+    const auto x0 = hn::Load(d, batch.first_x + lane), x1 = hn::Load(d, batch.last_x + lane);
+    const auto y0 = hn::Load(d, batch.first_y + lane), y1 = hn::Load(d, batch.last_y + lane);
+    const auto columns = hn::Sub(x1, x0), rows = hn::Sub(y1, y0);
+    const auto fits = hn::Lt(hn::Max(columns, rows), hn::Set(d, kCellSize));
+    const std::uint32_t lanes = Bits(d, fits) & (batch.reached & batch.small) >> lane;
+    if (lanes == 0) continue;
+    const std::int32_t last_column = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(fits, columns)));
+    const std::int32_t last_row = hn::GetLane(hn::MaxOfLanes(d, hn::IfThenElseZero(fits, rows)));
+    const auto from_x = hn::And(hn::BitCast(du, x0), three), from_y = hn::And(hn::BitCast(du, y0), three);
+    hn::Vec<decltype(d)> a[3], b[3], row[3];
+    for (std::size_t k = 0; k < 3; ++k) {
+      a[k] = hn::Load(d, batch.a[k] + lane), b[k] = hn::Load(d, batch.b[k] + lane);
+      const auto start = hn::Add(hn::Mul(a[k], hn::BitCast(d, from_x)), hn::Mul(b[k], hn::BitCast(d, from_y)));
+      row[k] = hn::Add(hn::Load(d, batch.e[k] + lane), start);
+    }
+    // A row of samples is a byte. Those that are covered, and those that are unless doubt says otherwise.
+    const auto doubt = hn::Load(d, batch.doubt + lane);
+    auto cover = hn::Zero(du), at_most = cover;
+    for (std::int32_t y = 0; y <= last_row; ++y) {
+      auto e0 = row[0], e1 = row[1], e2 = row[2];
+      for (std::int32_t x = 0; x <= last_column; ++x) {
+        const auto least = hn::Min(hn::Min(e0, e1), e2), bit = hn::Set(d, 1 << (8 * y + x));
+        cover = hn::Or(cover, hn::BitCast(du, hn::AndNot(hn::ShiftRight<31>(least), bit)));
+        at_most = hn::Or(at_most, hn::BitCast(du, hn::AndNot(hn::ShiftRight<31>(hn::Add(least, doubt)), bit)));
+        e0 = hn::Add(e0, a[0]), e1 = hn::Add(e1, a[1]), e2 = hn::Add(e2, a[2]);
+      }
+      for (std::size_t k = 0; k < 3; ++k) row[k] = hn::Add(row[k], b[k]);
+    }
+    const auto one_row = hn::Sub(hn::Shl(hn::Set(du, 2), hn::And(hn::BitCast(du, columns), three)), hn::Set(du, 1));
+    const auto beyond = hn::ShiftLeft<3>(hn::And(hn::Sub(three, hn::BitCast(du, rows)), three));
+    const auto box = hn::And(hn::Mul(one_row, hn::Set(du, 0x01010101)), hn::Shr(hn::Set(du, ~0u), beyond));
+    cover = hn::And(cover, box), at_most = hn::And(at_most, box);
+    const std::uint32_t known = lanes & Bits(du, hn::Eq(cover, at_most));
+    // Rows begin where they do in the cells, and become four bits each.
+    cover = hn::Shl(cover, from_x);
+    const auto pack = [&](hn::Vec<decltype(du)> bytes) HWY_ATTR {
+      bytes = hn::And(bytes, hn::Set(du, 0x0F0F0F0F));
+      bytes = hn::And(hn::Or(bytes, hn::ShiftRight<4>(bytes)), hn::Set(du, 0x00FF00FF));
+      bytes = hn::And(hn::Or(bytes, hn::ShiftRight<8>(bytes)), hn::Set(du, 0xFFFF));
+      return hn::Shl(bytes, hn::ShiftLeft<2>(from_y));
+    };
+    const auto left = pack(cover), right = pack(hn::ShiftRight<4>(cover));
+    hn::Store(left, du, batch.cover[0] + lane);
+    hn::Store(right, du, batch.cover[1] + lane);
+    batch.tiny |= known << lane;
+    batch.empty |= (known & Bits(du, hn::Eq(hn::Or(left, right), hn::Zero(du)))) << lane;
+  }
+}
+
 // Edges and depth of the lanes that reach a sample.
 HWY_NOINLINE void SetUpGroups(const DrawJob& job, bool of_fan, Batch& batch, Rungs& rungs) {
   const hn::CappedTag<float, kBatch> d;
-  batch.small = batch.medium = batch.thin = batch.slow_depth = batch.clip = batch.integer = 0;
+  batch.small = batch.medium = batch.tiny = batch.empty = batch.thin = batch.slow_depth = batch.clip = batch.integer =
+      0;
   batch.tie_lost[0] = batch.tie_lost[1] = batch.tie_lost[2] = batch.degenerate = batch.negative = 0;
   const DepthMode mode = job.draw->depth_mode;
   if (mode == DepthMode::clip) {
@@ -358,6 +414,7 @@ HWY_NOINLINE void SetUpGroups(const DrawJob& job, bool of_fan, Batch& batch, Run
     SetUpEdges(job, group, batch, rungs);
     if (depth) SetUpDepth(job, group, of_fan, batch);
   }
+  if (batch.small != 0) CoverTiny(batch);
 }
 
 // Which lanes of a batch are drawn, once it is known which are degenerate: not culled.
@@ -424,7 +481,7 @@ std::uint32_t SetUpFan(const DrawJob& job, std::uint32_t position, SnappedTriang
   // Those that reach no sample do not matter, nor do those without area.
   const std::uint32_t some = fan.reached & ~fan.degenerate;
   turns = (some & fan.negative) != 0 && (some & ~fan.negative) != 0;
-  return Drawn(draw, fan);
+  return Drawn(draw, fan) & ~fan.empty;
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ ARCHITECTURES = {
     "wasm32": Machine("clang++-19",
                       ["clang-19", "lld-19", "wasi-libc", "libc++-19-dev-wasm32", "libc++abi-19-dev-wasm32", "libclang-rt-19-dev-wasm32",
                        "nodejs"],
-                      ["node", "--no-warnings", str(ROOT / "elsewhere" / "wasi.mjs")],
+                      ["node", "--no-warnings", "--experimental-wasi-unstable-preview1", str(ROOT / "elsewhere" / "wasi.mjs")],
                       ["-DCMAKE_SYSTEM_NAME=Generic", "-DCMAKE_SYSTEM_PROCESSOR=wasm32", "-DCMAKE_C_COMPILER=clang-19",
                        "-DCMAKE_CXX_COMPILER_TARGET=wasm32-wasi", "-DCMAKE_C_COMPILER_TARGET=wasm32-wasi",
                        "-DSUREFILL_REFERENCE_ONLY=ON"],

@@ -6,5 +6,5 @@ import { WASI } from "node:wasi";
 
 const [program, ...args] = process.argv.slice(2);
 const wasi = new WASI({ version: "preview1", args: [program, ...args], preopens: { "/": "/" } });
-const { instance } = await WebAssembly.instantiate(await readFile(program), wasi.getImportObject());
+const { instance } = await WebAssembly.instantiate(await readFile(program), { wasi_snapshot_preview1: wasi.wasiImport });
 process.exitCode = wasi.start(instance);

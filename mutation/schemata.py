@@ -82,7 +82,7 @@ PATHS = {
     # What defines the engine's answers, and what the fast path falls back on.
     "reference": Path("reference", ["arguments.cpp", "exact/bounds.hpp", "exact/conservative.hpp", "exact/edge.hpp", "exact/exact.hpp",
                                     "exact/exact_draw.cpp", "exact/exact_draw.hpp", "exact/grid.cpp", "exact/grid.hpp",
-                                    "exact/triangle.hpp", "facts.hpp", "overlap.hpp", "reference.cpp", "viewport.cpp"],
+                                    "exact/triangle.hpp", "facts.hpp", "overlap.hpp", "reference.cpp", "statistics.cpp", "viewport.cpp"],
                       ALWAYS,
                       ["-DSUREFILL_REFERENCE_ONLY"]),
     # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one.

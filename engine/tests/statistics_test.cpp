@@ -3,12 +3,10 @@
 // Statistics are those of M11, counted here in rationals, and depend on nothing but the draws.
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
+#include <vector>
 
 #include "corpus/scene.hpp"
-#include "oracle/clipped_polygon.hpp"
+#include "engine/tests/statistics_in_rationals.hpp"
 #include "properties/generators/generators.hpp"
 #include "properties/machinery/compare.hpp"
 #include "surefill/surefill.hpp"
@@ -16,52 +14,13 @@
 namespace surefill::properties {
 namespace {
 
-bool is_finite(const Draw& draw, std::uint32_t vertex) {
-  const Vertex& v = draw.vertices[vertex];
-  bool finite = std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-  for (const AttributeArray& attribute : draw.attributes) {
-    const std::uint32_t stride = attribute.stride == 0 ? attribute.components : attribute.stride;
-    for (std::uint32_t c = 0; c < attribute.components; ++c)
-      finite = finite && std::isfinite(attribute.values[std::size_t{vertex} * stride + c]);
-  }
-  return finite;
-}
-
-Statistics in_rationals(std::span<const Draw> draws) {
-  Statistics sum;
-  for (const Draw& draw : draws) {
-    for (std::size_t t = 0; t < draw.indices.size(); t += 3) {
-      const auto corners = draw.indices.subspan(t, 3);
-      if (!std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return is_finite(draw, v); })) {
-        ++sum.dropped;
-        continue;
-      }
-      std::array<oracle::clipped::Vector, 3> m;
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vertex& v = draw.vertices[corners[k]];
-        m[k] = {oracle::clipped::exact(v.x), oracle::clipped::exact(v.y), oracle::clipped::exact(v.w)};
-      }
-      const int sign = sgn(oracle::clipped::dot(m[0], oracle::clipped::cross(m[1], m[2])));
-      const bool front = (sign > 0) == (draw.front_face == FrontFace::clockwise);
-      if (sign == 0 && (!draw.grid || oracle::clipped::contains_eye(m))) {
-        ++sum.degenerate;
-      } else if (!draw.grid && draw.cull == (front ? Cull::front : Cull::back)) {
-        ++sum.culled;
-      } else {
-        ++sum.rasterized;
-      }
-    }
-  }
-  return sum;
-}
-
 TEST(Statistics, AreThoseOfM11) {
   Statistics all;
   for (const Category& category : categories()) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
       const corpus::Scene scene = mixed_scene(category, seed, 24, 6);
       corpus::Frame frame(scene, outputs_of(scene));
-      const Statistics expected = in_rationals(frame.draws());
+      const Statistics expected = statistics_in_rationals(frame.draws());
       for (const Options& options : {Options{}, Options{.threads = 3}, Options{.path = Path::reference}}) {
         Statistics actual;
         ASSERT_EQ(render(frame.target(), frame.draws(), &actual, options), Status::ok);

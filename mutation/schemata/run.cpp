@@ -24,6 +24,7 @@
 #include "mutant.hpp"
 #if defined(SUREFILL_REFERENCE_ONLY)
 #include "engine/tests/internal_bounds.hpp"
+#include "engine/tests/statistics_in_rationals.hpp"
 #else
 #include "engine/tests/batch_bounds.hpp"
 #endif
@@ -94,6 +95,17 @@ std::vector<certify::Check> suite(const certify::Settings& settings) {
     result.differences =
         properties::compare(scene.scene, properties::engine_renderer(), properties::oracle_renderer(), scene.outputs)
             .differences;
+    return result;
+  };
+  certify::Check& statistics = checks.emplace_back(certify::make_check("statistics", "M11", "its test"));
+  statistics.prepare = [] { return std::uint64_t{1} << 32; };
+  statistics.run = [](std::uint64_t number) {
+    certify::CaseResult result;
+    const properties::PathScene scene = properties::all_path_cases()[0].make(number);
+    const corpus::Frame frame(scene.scene, scene.outputs);
+    Statistics actual;
+    const bool drawn = render(frame.target(), frame.draws(), &actual) == Status::ok;
+    result.differences = drawn && actual == properties::statistics_in_rationals(frame.draws()) ? 0 : 1;
     return result;
   };
 #else

@@ -30,7 +30,9 @@ ROOMS = {
                    "engine/src/build_check.hpp", "hwy"],
     "python": [*ENGINE],
     "examples": [*ENGINE],  # those that embed the engine
-    "oracle": [*ENGINE],
+    "mutation/zoo/zoo.hpp": [*ENGINE],
+    "oracle/model.hpp": [*ENGINE],
+    "oracle": [*ENGINE, "oracle/model.hpp"],
     "corpus": [*ENGINE],
     "textbook": [*ENGINE, "engine/src/exact"],  # it shows the engine's own arithmetic
     "properties": SUITE[:-1],
@@ -39,20 +41,21 @@ ROOMS = {
     "certify/adapter.h": [],
     "certify/drivers": ["certify/adapter.h"],  # plugins: all they know of the suite
     "examples/rivals": ["certify/adapter.h"],  # the same
-    "certify": [*SUITE, "textbook", "certify/adapter.h"],
+    "certify/judge": [*ENGINE, "corpus", "oracle/model.hpp"],  # a library without an oracle, files or processes
+    "certify": [*SUITE, "oracle/model.hpp", "textbook", "certify/adapter.h", "certify/judge", "mutation/zoo/zoo.hpp"],
     "bench": [*ENGINE, "corpus", "hwy"],
-    "fuzz": [*SUITE, "certify", "hwy"],
+    "fuzz": [*SUITE, "certify", "certify/judge", "hwy"],
     "examples/fuzz_your_rasterizer.cpp": [*SUITE, "fuzz"],  # an example of the suite
-    "mutation": [*SUITE, "certify", "certify/adapter.h"],
+    "mutation": [*SUITE, "certify", "certify/adapter.h", "certify/judge", "mutation/zoo/zoo.hpp", "oracle/model.hpp"],
     # Tests see what they test, what that sees, and the properties.
     "engine/tests": [*SUITE, "engine/src", "engine/src/exact", "engine/src/fast", "hwy"],
-    "oracle/tests": SUITE,
+    "oracle/tests": [*SUITE, "oracle/model.hpp"],
     "corpus/tests": SUITE,
     "textbook/tests": [*SUITE, "engine/src/exact", "textbook"],
     "properties/tests": SUITE,
-    "certify/tests": [*SUITE, "textbook", "certify", "certify/adapter.h"],
+    "certify/tests": [*SUITE, "oracle/model.hpp", "certify/judge", "textbook", "certify", "certify/adapter.h", "mutation"],
     "fuzz/tests": [*SUITE, "certify", "fuzz"],
-    "mutation/tests": [*SUITE, "certify", "certify/adapter.h", "mutation"],
+    "mutation/tests": [*SUITE, "certify", "certify/adapter.h", "mutation", "mutation/zoo/zoo.hpp"],
     "mutation/schemata": [*SUITE, "certify", "engine/tests", "hwy"],  # a suite of its own, of the engine's tests among others
 }
 LONGEST = 700  # lines

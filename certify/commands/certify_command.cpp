@@ -13,8 +13,10 @@
 #include <utility>
 
 #include "certify/commands/options.hpp"
+#include "certify/judge/words.hpp"
 #include "certify/report/certificate.hpp"
 #include "certify/report/report_files.hpp"
+#include "certify/rivals/names.hpp"
 #include "certify/rivals/rival_checks.hpp"
 #include "certify/run/checks.hpp"
 #include "certify/run/files.hpp"
@@ -120,9 +122,35 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
   facts.rival = rival.info().name;
   facts.rival_version = rival.info().version;
   facts.declared_model = subject.declared ? adapters::describe_model(declared) : "none";
-  facts.inferred_model = subject.inference.fits ? adapters::describe_model(subject.inference.model) : "none fits";
-  facts.model = adapters::describe_model(rival.info().model);
+  const judge::Inference& found = subject.inference.judged;
+  facts.inferred_model = subject.inference.fits ? adapters::describe_model(subject.inference.model)
+                         : found.known          ? judge::describe(found.model)
+                                                : "none fits";
+  const bool section_6 = rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
+  facts.model = section_6             ? adapters::describe_model(rival.info().model)
+                : subject.terms.known ? judge::describe(subject.terms.model)
+                                      : "unknown";
+  if (found.known) facts.departures = judge::departures(found.model);
+  facts.open = found.open;
+  facts.turns = judge::turns_text(found.turns);
   facts.problems = subject.inference.problems;
+}
+
+// What the faults that were found are called: the best name, and those that explain them as well.
+std::vector<std::string> names_of(const RivalSubject& subject, std::span<const CheckResult> results) {
+  std::vector<corpus::Scene> scenes;
+  for (const CheckResult& result : results) {
+    if (result.failed > 0 && !result.scene_text.empty()) scenes.push_back(corpus::read_scene(result.scene_text));
+  }
+  const bool failed = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.failed > 0; });
+  std::vector<std::string> texts;
+  if (!failed || subject.rival->given_up()) return texts;
+  const std::vector<judge::Name> names = name_rival(subject, scenes);
+  for (const judge::Name& name : names) {
+    if (name.agreement < names.front().agreement || texts.size() == 3) break;
+    texts.push_back(name_text(name));
+  }
+  return texts;
 }
 
 // A rival that draws nothing is a finding by itself, and the only one.
@@ -313,6 +341,12 @@ int run_certify(const CertifyOptions& options, const std::function<std::string()
   const bool complete = std::all_of(certificate.results.begin(), certificate.results.end(),
                                     [](const CheckResult& result) { return result.complete(); });
   if (rival && !complete && rival->given_up()) facts.stopped = rival->why_given_up();
+  if (rival && !facts.interrupted) facts.names = names_of(subject, certificate.results);
+  if (rival) {
+    std::string names;
+    for (const std::string& name : not_challenged(subject)) names += (names.empty() ? "" : ", ") + name;
+    if (!names.empty()) facts.open.push_back("claimed, and not challenged by any case that was judged: " + names);
+  }
   certificate.facts = facts;
   print(verdict_block(certificate.results, facts));
   write_reports(certificate, options.json, options.junit, options.html);

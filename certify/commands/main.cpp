@@ -27,8 +27,8 @@
 #include "certify/report/picture.hpp"
 #include "certify/report/report.hpp"
 #include "certify/rivals/host.hpp"
-#include "certify/rivals/profile.hpp"
 #include "certify/rivals/rival.hpp"
+#include "certify/rivals/rival_cases.hpp"
 #include "certify/rivals/rival_checks.hpp"
 #include "certify/run/files.hpp"
 #include "certify/run/judge.hpp"
@@ -189,17 +189,24 @@ std::string find_corpus() {
 
 // --- replay and reduce
 
-// A rival under the model that it declares or that probing finds.
-std::unique_ptr<adapters::Rival> met_rival(const RivalChoice& choice) {
+// A rival as the checks know it.
+struct Met {
+  std::unique_ptr<adapters::Rival> rival;
+  RivalSubject subject;
+};
+
+// Nothing, if none is chosen.
+std::unique_ptr<Met> met_rival(const RivalChoice& choice) {
   if (!choice.chosen()) return nullptr;
-  std::unique_ptr<adapters::Rival> rival = start_rival(choice);
-  meet_rival(*rival);
-  return rival;
+  auto met = std::make_unique<Met>();
+  met->rival = start_rival(choice);
+  met->subject = meet_rival(*met->rival);
+  return met;
 }
 
 int run_replay(const std::vector<std::string>& files, ReplayOptions options, const RivalChoice& choice) {
-  const std::unique_ptr<adapters::Rival> rival = met_rival(choice);
-  options.rival = rival.get();
+  const std::unique_ptr<Met> met = met_rival(choice);
+  if (met) options.subject = &met->subject;
   bool equal = true;
   for (const std::string& file : files) {
     const Replay answer = replay(corpus::read_scene_file(file), file, options);
@@ -223,12 +230,17 @@ int run_reduce(const ReduceOptions& options) {
   corpus::Scene scene = corpus::read_scene_file(options.input);
   const properties::Renderer other =
       options.second_oracle ? properties::clipped_oracle_renderer() : properties::engine_renderer();
-  const std::unique_ptr<adapters::Rival> rival = met_rival(options.rival);
-  const auto fails = [&other, &rival](const corpus::Scene& simpler) {
-    if (rival) return !interrupted() && valid(simpler) && compare_rival(simpler, *rival).differences > 0;
-    return !interrupted() && valid(simpler) && judge(simpler, properties::oracle_renderer(), other, 0).differences > 0;
+  const std::unique_ptr<Met> met = met_rival(options.rival);
+  const auto kind = [&other, &met](const corpus::Scene& simpler) {
+    if (interrupted() || !valid(simpler)) return std::string();
+    if (met) return kind_of_finding(judge_scene(simpler, met->subject).finding);
+    const properties::Comparison difference = judge(simpler, properties::oracle_renderer(), other, 1);
+    return difference.first.empty() ? std::string() : difference.first.front().output;
   };
-  if (!fails(scene)) {
+  const std::string wanted = kind(scene);
+  // A smaller scene that shows another fault is none.
+  const auto fails = [&kind, &wanted](const corpus::Scene& simpler) { return kind(simpler) == wanted; };
+  if (wanted.empty()) {
     throw UsageError(options.input + ": nothing differs, so there is nothing to reduce");
   }
   catch_interrupts();

@@ -6,15 +6,15 @@
 
 #include <string>
 
-#include "certify/rivals/rival.hpp"
+#include "certify/rivals/rival_cases.hpp"
 #include "corpus/scene.hpp"
 
 namespace surefill::certify {
 
 struct ReplayOptions {
-  adapters::Rival* rival = nullptr;  // in the engine's place, with the oracle under its model
-  bool all = false;                  // every sample, not those alone that differ
-  bool second_oracle = false;        // the second oracle in the engine's place
+  const RivalSubject* subject = nullptr;  // a rival in the engine's place, judged as the checks judge it
+  bool all = false;                       // every sample, not those alone that differ
+  bool second_oracle = false;             // the second oracle in the engine's place
 };
 
 // What a replay says, and whether the two are equal. Throws SceneError for points and lines.

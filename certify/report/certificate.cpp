@@ -17,7 +17,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr int kFormatVersion = 3;
+constexpr int kFormatVersion = 4;
 constexpr std::uint64_t kMostShards = 100000;
 // Of anything that is counted: sums over all shards stay below 2^64.
 constexpr std::uint64_t kMostCounted = std::uint64_t{1} << 46;
@@ -125,6 +125,7 @@ Json json_of(const CheckResult& result) {
   check["skipped"] = result.skipped;
   check["failed"] = result.failed;
   check["samples"] = result.samples;
+  check["open"] = result.open;
   check["differences"] = result.differences;
   check["seconds"] = result.seconds;
   if (const Json deviations = json_of(result.deviations); !deviations.empty()) check["largest_errors"] = deviations;
@@ -165,6 +166,7 @@ CheckResult result_of(const Json& check) {
   result.skipped = count_of(check, "skipped");
   result.failed = count_of(check, "failed");
   result.samples = count_of(check, "samples");
+  result.open = count_of(check, "open");
   result.differences = count_of(check, "differences");
   result.seconds = duration_of(check, "seconds");
   if (check.contains("largest_errors")) result.deviations = deviations_of(check["largest_errors"]);
@@ -259,6 +261,10 @@ std::string certificate_json(const Certificate& certificate) {
                      {"declared_model", facts.declared_model},
                      {"inferred_model", facts.inferred_model},
                      {"model", facts.model},
+                     {"departures", facts.departures},
+                     {"names", facts.names},
+                     {"open", facts.open},
+                     {"turns", facts.turns},
                      {"problems", facts.problems}};
     for (const auto& [group, part] : groups_of(certificate.results)) {
       json["verdicts"][group] = verdict_name(verdict_of(part, facts));
@@ -323,6 +329,10 @@ Certificate read_certificate(const std::string& text, const std::string& file) {
       facts.declared_model = rival.at("declared_model");
       facts.inferred_model = rival.at("inferred_model");
       facts.model = rival.at("model");
+      facts.departures = rival.at("departures").get<std::vector<std::string>>();
+      facts.names = rival.at("names").get<std::vector<std::string>>();
+      facts.open = rival.at("open").get<std::vector<std::string>>();
+      facts.turns = rival.at("turns");
       facts.problems = rival.at("problems").get<std::vector<std::string>>();
     }
     for (const Json& check : json.at("checks")) certificate.results.push_back(result_of(check));
@@ -397,6 +407,7 @@ Certificate merge(std::span<const Certificate> shards, std::span<const std::stri
       sum.skipped = to.skipped + from.skipped;
       sum.failed = to.failed + from.failed;
       sum.samples = to.samples + from.samples;
+      sum.open = to.open + from.open;
       sum.differences = to.differences + from.differences;
       sum.seconds = to.seconds + from.seconds;
       sum.deviations = to.deviations;

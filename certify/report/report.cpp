@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 #include "certify/build_info.hpp"
 #include "surefill/diagnostics.hpp"
@@ -27,17 +28,18 @@ std::string cpu_model() {
 constexpr const char* kMeans =
     "every value compared equals the exact one, bit for bit: no tolerance, no sample left out";
 constexpr const char* kRivalMeans =
-    "invariants: what every rasterizer owes, on all cases looked at; exact model: coverage equal to the oracle's under "
-    "the "
-    "model, with no tolerance, and values within what the profile grants (profile exact: equal bit for bit)";
+    "model: what it does, declared or found by probing, and coverage exactly as that says, with no tolerance; "
+    "invariants: what is owed beside that, and values within what the profile grants (profile exact: equal bit for "
+    "bit)";
 constexpr const char* kRivalLimits[] = {
     "sampled checks speak for the cases drawn, not for all; exhaustive ones for all of the N named",
-    "cases that need what the rasterizer does not claim to have are skipped",
+    "what needs a feature that it does not claim, or that it says it does not take, is not owed",
+    "samples that the model leaves open (R1) are counted and not judged",
     "unless the profile is exact: behind the eye and beyond the guard band, 1/16 pixel around edges is left open",
     "unless the profile is exact: numbers beyond 2^32 or below 2^-32 are not judged",
-    "unless the profile is exact: the exact model and meshes ask for positions that are snapped without doubt: W a "
-    "power "
-    "of two, or X/W and Y/W 1/16 grid step and more from where the rounding turns",
+    "unless the profile is exact: where W is no power of two, positions within 1/16 grid step of where the rounding "
+    "turns "
+    "are open",
     "where clip space is taken, no vertex is rounded on the way: its clip and pixel forms are both exact in float32",
 };
 constexpr const char* kLimits[] = {
@@ -135,16 +137,19 @@ std::string version_line() {
 }
 
 std::string check_line(const CheckResult& result, std::uint64_t seed) {
-  const char* mark = result.failed > 0 ? "FAIL" : !result.complete() ? "part" : result.checked() ? "ok" : "skip";
+  const char* mark = result.failed > 0 ? "FAIL" : !result.complete() ? "part" : result.checked() ? "ok" : "n/a";
   std::string line =
       fmt::format("{:<4}  {}: {} [{}]\n      {}", mark, result.name, result.claim, result.rule, how_many(result, seed));
   if (!result.complete()) line += fmt::format(" ({} done)", grouped(result.done));
   if (result.skipped > 0) {
-    line += fmt::format(" ({} skipped: {})", grouped(result.skipped),
-                        result.group.empty() ? "modes the engine lacks" : "not owed, or features it lacks");
+    line += fmt::format(" ({} {})", result.skipped == result.done ? "none" : grouped(result.skipped),
+                        result.group.empty()            ? "skipped: modes the engine lacks"
+                        : result.skipped == result.done ? "applicable: not owed, or it lacks a feature"
+                                                        : "not applicable");
   }
-  line += fmt::format("; {} samples, {} differences, {:.1f} s\n", grouped(result.samples), grouped(result.differences),
-                      result.seconds);
+  line += fmt::format("; {} samples{}, {} differences, {:.1f} s\n", grouped(result.samples),
+                      result.open > 0 ? fmt::format(" judged, {} open", grouped(result.open)) : "",
+                      grouped(result.differences), result.seconds);
   const std::string deviations = deviations_text(result.deviations);
   if (!deviations.empty()) line += fmt::format("      largest errors: {}\n", deviations);
   if (result.failed == 0) return line;
@@ -169,25 +174,33 @@ Verdict verdict_of(std::span<const CheckResult> results, const Facts& facts) {
 
 std::string verdict_block(std::span<const CheckResult> results, const Facts& facts) {
   std::uint64_t samples = 0, differences = 0, skipped = 0;
-  std::size_t failed = 0, complete = 0;
+  std::size_t failed = 0, complete = 0, not_applicable = 0;
   for (const CheckResult& result : results) {
     samples += result.samples;
     differences += result.differences;
     skipped += result.skipped;
     if (result.failed > 0) ++failed;
     if (result.complete()) ++complete;
+    if (result.not_applicable()) ++not_applicable;
   }
+  const std::string judged = not_applicable == 0
+                                 ? fmt::format("{} checks", results.size())
+                                 : fmt::format("{} of {} checks judged, {} not applicable", complete - not_applicable,
+                                               results.size(), not_applicable);
   const Verdict verdict = verdict_of(results, facts);
   std::string block = "\n";
   switch (verdict) {
     case Verdict::certified:
-      block += fmt::format("CERTIFIED: {} checks, {} samples compared, 0 differences, {:.1f} s\n", results.size(),
-                           grouped(samples), facts.seconds);
+      block +=
+          fmt::format("CERTIFIED: {}; {} samples, 0 differences, {:.1f} s\n", judged, grouped(samples), facts.seconds);
       break;
     case Verdict::not_certified:
       block +=
-          fmt::format("NOT CERTIFIED: {} of {} checks found a difference ({} differences in {} samples), {:.1f} s\n",
-                      failed, results.size(), grouped(differences), grouped(samples), facts.seconds);
+          failed == 0
+              ? fmt::format("NOT CERTIFIED: nothing could be judged: {}; {:.1f} s\n", judged, facts.seconds)
+              : fmt::format(
+                    "NOT CERTIFIED: {} of {} checks found a difference ({} differences in {} samples); {}; {:.1f} s\n",
+                    failed, results.size(), grouped(differences), grouped(samples), judged, facts.seconds);
       break;
     case Verdict::incomplete:
       block += fmt::format("INCOMPLETE: interrupted; {} of {} checks are complete, without a difference, {:.1f} s\n",
@@ -200,26 +213,35 @@ std::string verdict_block(std::span<const CheckResult> results, const Facts& fac
   if (facts.interrupted && verdict == Verdict::not_certified) {
     block += fmt::format("  interrupted: {} of {} checks are complete\n", complete, results.size());
   }
+  for (std::size_t n = 0; n < facts.names.size(); ++n) {
+    block += fmt::format("  {}    {}\n", n == 0 ? "likely" : "or    ", facts.names[n]);
+  }
   if (facts.of_rival()) {
     for (const auto& [group, part] : groups_of(results)) {
-      const std::string of = group == "exact model" ? fmt::format(" ({})", facts.model) : "";
+      const std::string of = group == "model" ? fmt::format(" ({})", facts.model) : "";
       const std::size_t bad = static_cast<std::size_t>(
           std::count_if(part.begin(), part.end(), [](const CheckResult& r) { return r.failed > 0; }));
       const Verdict here = verdict_of(part, facts);
       block += fmt::format("  verdict   {}{}: {}\n", group, of,
                            here == Verdict::certified    ? "hold on all cases"
                            : here == Verdict::incomplete ? "incomplete"
-                           : bad == 0                    ? "nothing could be checked"
+                           : bad == 0                    ? "nothing was owed"
                                       : fmt::format("violated in {} of {} checks", bad, part.size()));
     }
     block += fmt::format("  rival     {} {}\n", facts.rival, facts.rival_version);
     block +=
         fmt::format("  model     declared: {}; found by probing: {}\n", facts.declared_model, facts.inferred_model);
     for (const std::string& problem : facts.problems) block += fmt::format("            {}\n", problem);
+    for (const std::string& sentence : facts.departures) block += fmt::format("  note      {}\n", sentence);
+    for (const std::string& what : facts.open) block += fmt::format("  unknown   {}\n", what);
+    if (!facts.departures.empty() || !facts.problems.empty()) {
+      std::istringstream turns(facts.turns);
+      for (std::string line; std::getline(turns, line);) block += fmt::format("  turns     {}\n", line);
+    }
   }
   if (skipped > 0) {
-    block += fmt::format("  {} cases were skipped: {}\n", grouped(skipped),
-                         facts.of_rival() ? "they are not owed under its model, or need features that it does not claim"
+    block += fmt::format("  {} cases were not applicable: {}\n", grouped(skipped),
+                         facts.of_rival() ? "they are not owed under its model, or need features that it lacks"
                                           : "they need modes that this engine does not have yet");
   }
   block += fmt::format("  means     {}\n", meaning(facts));

@@ -25,7 +25,11 @@ struct Facts {
   Shard shard;
   // Of a rival; empty where it is the engine that is certified.
   std::string rival, rival_version, declared_model, inferred_model, model;
-  std::vector<std::string> problems;  // what no model explains
+  std::vector<std::string> departures;  // what a newcomer would not expect of the model, a sentence each
+  std::vector<std::string> names;       // what is wrong with it, the best explanation first
+  std::vector<std::string> open;        // what could not be found out, and why
+  std::string turns;                    // the table of turns, for people
+  std::vector<std::string> problems;    // what no model explains
 
   bool of_rival() const { return !rival.empty(); }
 };

@@ -304,16 +304,36 @@ std::string verdict_box(const std::string& title, Verdict verdict, const std::ve
 }
 
 std::string row(const CheckResult& result) {
-  const char* mark = result.failed > 0 ? "FAIL" : !result.complete() ? "part" : result.checked() ? "ok" : "skip";
+  const char* mark = result.failed > 0 ? "FAIL" : !result.complete() ? "part" : result.checked() ? "ok" : "n/a";
   const std::string errors = deviations_text(result.deviations);
   return fmt::format(
-      "<tr><td class=\"{0}\">{0}</td><td><b>{1}</b> [{2}]<br>{3}{4}</td><td class=\"n\">{5}{6}</td><td "
+      "<tr><td class=\"{11}\">{0}</td><td><b>{1}</b> [{2}]<br>{3}{4}</td><td class=\"n\">{5}{6}</td><td "
       "class=\"n\">{7}</td>"
       "<td class=\"n\">{8}</td><td class=\"n\">{9}</td><td class=\"n\">{10:.1f} s</td></tr>\n",
       mark, escaped(result.name), escaped(result.rule), escaped(result.claim),
       errors.empty() ? "" : "<br>largest errors: " + escaped(errors), grouped(result.done),
       result.exhaustive && result.done == result.cases ? " (all)" : "", grouped(result.skipped),
-      grouped(result.samples), grouped(result.failed), result.seconds);
+      grouped(result.samples), grouped(result.failed), result.seconds, std::string_view(mark) == "n/a" ? "skip" : mark);
+}
+
+// The model that was found stands first: with what a newcomer would not expect of it, and where edges turn.
+std::string model_card(const Facts& facts) {
+  if (!facts.of_rival()) return "";
+  std::string html = "<h2>What it does</h2>\n<div class=\"card\">\n";
+  const auto line = [&html](const char* what, const std::string& text) {
+    html += fmt::format("<p><b>{}</b> {}</p>\n", what, escaped(text));
+  };
+  for (const std::string& name : facts.names) line("Likely:", name);
+  line("Found by probing:", facts.inferred_model);
+  if (facts.declared_model != "none") line("Declared:", facts.declared_model);
+  for (const std::string& problem : facts.problems) line("No model explains:", problem);
+  for (const std::string& sentence : facts.departures) line("Note:", sentence);
+  for (const std::string& what : facts.open) line("Not found out:", what);
+  if (!facts.turns.empty()) {
+    html += "<p>Where edges stop covering the sample of a pixel, from the pixel's centre:</p>\n<pre>" +
+            escaped(facts.turns) + "</pre>\n";
+  }
+  return html + "</div>\n";
 }
 
 }  // namespace
@@ -329,10 +349,10 @@ std::string html_report(const Certificate& certificate) {
       facts.interrupted ? "; interrupted" : "");
   const auto groups = groups_of(certificate.results);
   for (const auto& [group, results] : groups) {
-    const std::string model = group == "exact model" ? "Exact model" : "Invariants";
+    const std::string model = group == "model" ? "Model" : "Invariants";
     html += verdict_box(group.empty() ? "Engine" : model, verdict_of(results, facts), results, !group.empty());
   }
-  html += "</div>\n";
+  html += "</div>\n" + model_card(facts);
 
   std::map<std::string, std::vector<const CheckResult*>> causes;
   for (const CheckResult& result : certificate.results) {
@@ -354,7 +374,7 @@ std::string html_report(const Certificate& certificate) {
 
   for (const auto& [group, results] : groups) {
     html += fmt::format(
-        "<h2>Checks{}</h2>\n<table><tr><th></th><th>Check</th><th>Cases</th><th>Skipped</th><th>Samples</th>"
+        "<h2>Checks{}</h2>\n<table><tr><th></th><th>Check</th><th>Cases</th><th>Not applicable</th><th>Samples</th>"
         "<th>Differ</th><th>Time</th></tr>\n",
         group.empty() ? "" : ": " + escaped(group));
     for (const CheckResult& result : results) html += row(result);
@@ -365,10 +385,7 @@ std::string html_report(const Certificate& certificate) {
     html += fmt::format("<dt>{}</dt><dd>{}</dd>\n", name, escaped(value));
   };
   if (facts.of_rival()) {
-    fact("declared model", facts.declared_model);
-    fact("found by probing", facts.inferred_model);
     fact("judged by", facts.model);
-    for (const std::string& problem : facts.problems) fact("no model explains", problem);
   }
   if (!facts.stopped.empty()) fact("stopped", facts.stopped);
   fact("means", meaning(facts));

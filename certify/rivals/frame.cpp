@@ -61,20 +61,6 @@ std::uint32_t features_of(const Draw& draw, std::size_t wanted_attributes) {
   return features;
 }
 
-std::uint32_t features_of(const Target& target, std::span<const Draw> draws) {
-  std::uint32_t features = 0;
-  const auto need = [&features](bool condition, int bit) {
-    if (condition) features |= static_cast<std::uint32_t>(bit);
-  };
-  for (const Draw& draw : draws) features |= features_of(draw, target.attributes.size());
-  need(draws.size() > 1, SUREFILL_ADAPTER_DRAWS);
-  need(target.samples > 1, SUREFILL_ADAPTER_SAMPLES);
-  need(target.depth_test == DepthTest::greater, SUREFILL_ADAPTER_DEPTH_GREATER);
-  need(!target.initial_depth.empty(), SUREFILL_ADAPTER_INITIAL_DEPTH);
-  need(target.attribute_location == AttributeLocation::centroid && target.samples > 1, SUREFILL_ADAPTER_CENTROID);
-  return features;
-}
-
 constexpr const char* kFeatureNames[] = {"vertices with W <= 0",
                                          "several draws",
                                          "several samples a pixel",
@@ -166,8 +152,31 @@ std::vector<Draw> under_model(std::span<const Draw> draws, const surefill_adapte
   return result;
 }
 
+std::uint32_t needed_features(const Target& target, std::span<const Draw> draws) {
+  std::uint32_t features = 0;
+  const auto need = [&features](bool condition, int bit) {
+    if (condition) features |= static_cast<std::uint32_t>(bit);
+  };
+  for (const Draw& draw : draws) {
+    features |= features_of(draw, target.attributes.size());
+    need(draw.fill_rule != FillRule::top_left, SUREFILL_ADAPTER_FILL_RULES);
+    need(draw.grid.has_value(), SUREFILL_ADAPTER_GRIDS);
+  }
+  need(draws.size() > 1, SUREFILL_ADAPTER_DRAWS);
+  need(target.samples > 1, SUREFILL_ADAPTER_SAMPLES);
+  need(target.depth_test == DepthTest::greater, SUREFILL_ADAPTER_DEPTH_GREATER);
+  need(!target.initial_depth.empty(), SUREFILL_ADAPTER_INITIAL_DEPTH);
+  need(target.attribute_location == AttributeLocation::centroid && target.samples > 1, SUREFILL_ADAPTER_CENTROID);
+  return features;
+}
+
+const char* feature_name(int bit) {
+  return kFeatureNames[bit];
+}
+
 std::string what_is_lacking(const Target& target, std::span<const Draw> draws, const surefill_adapter_info& info) {
-  const std::uint32_t missing = features_of(target, draws) & ~info.features;
+  constexpr std::uint32_t kTaken = SUREFILL_ADAPTER_FILL_RULES | SUREFILL_ADAPTER_GRIDS;  // or the model's
+  const std::uint32_t missing = needed_features(target, draws) & ~info.features & ~kTaken;
   if (missing != 0) return kFeatureNames[std::countr_zero(missing)];
   for (const Draw& draw : draws)  // version 1 of the adapter has no word for them
     if (draw.fill_rule > FillRule::northwards_west) return "fill rules closed and open";

@@ -19,6 +19,10 @@ namespace surefill::adapters {
 // model that is not known leaves the draws as they are.
 std::vector<Draw> under_model(std::span<const Draw> draws, const surefill_adapter_info& info);
 
+// The features that a frame needs, as bits of the adapter; and what they are called.
+std::uint32_t needed_features(const Target& target, std::span<const Draw> draws);
+const char* feature_name(int bit);
+
 // Why this rival is not asked to draw this frame (a feature that it lacks, a limit), as a short sentence; empty if it
 // is. `draws` are under its model.
 std::string what_is_lacking(const Target& target, std::span<const Draw> draws, const surefill_adapter_info& info);

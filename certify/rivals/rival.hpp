@@ -15,17 +15,14 @@
 #include <vector>
 
 #include "certify/adapter.h"
+#include "certify/judge/rival.hpp"
 #include "certify/rivals/process.hpp"
 #include "properties/machinery/compare.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::adapters {
 
-// The rival did what no rasterizer may: crashed, hung, ended, answered nonsense. what() is one line: a finding.
-class RivalFailure : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using RivalFailure = judge::Failure;
 
 // There is nothing to judge: it cannot be started or opened, or describes itself wrongly. what() is one line, never
 // without a cause.
@@ -34,11 +31,7 @@ class RivalUnopened : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// This frame is none for this rival: it lacks a feature, or says so. No finding.
-class RivalSkips : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
+using RivalSkips = judge::Declined;
 
 struct RivalOptions {
   std::vector<std::string> command;            // program and its arguments

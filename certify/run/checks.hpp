@@ -12,6 +12,7 @@
 #include <string_view>
 #include <vector>
 
+#include "certify/judge/images.hpp"
 #include "certify/run/judge.hpp"
 #include "corpus/scene.hpp"
 #include "properties/machinery/compare.hpp"
@@ -33,27 +34,14 @@ struct Settings {
   Support support;  // of the engine
 };
 
-// The largest error of a kind of value: in ULP, and as a share of what the profile grants.
-struct Deviation {
-  double ulp = 0, granted = 0;
-  void take(const Deviation& other) {
-    ulp = std::max(ulp, other.ulp);
-    granted = std::max(granted, other.granted);
-  }
-};
-struct Deviations {
-  Deviation depth, barycentrics, attributes;
-  void take(const Deviations& other) {
-    depth.take(other.depth);
-    barycentrics.take(other.barycentrics);
-    attributes.take(other.attributes);
-  }
-};
+using judge::Deviation;
+using judge::Deviations;
 
 struct CaseResult {
-  std::uint64_t samples = 0;
+  std::uint64_t samples = 0;  // judged
+  std::uint64_t open = 0;     // not, since the model leaves them open (R1)
   std::uint64_t differences = 0;
-  bool skipped = false;                        // the engine lacks a mode that the case needs
+  bool skipped = false;                        // not applicable: nothing of it is owed, or a mode is lacking
   Deviations deviations;                       // of a rival whose profile is not exact
   std::string finding;                         // one line, where it differs
   std::optional<corpus::Scene> scene;          // that shows it, where there is one

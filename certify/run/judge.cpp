@@ -114,4 +114,10 @@ std::string describe_finding(const properties::Difference& difference, int sampl
                      "XYZW"[difference.component], difference.x, difference.y, difference.expected, difference.actual);
 }
 
+std::string kind_of_finding(const std::string& finding) {
+  std::string kind = finding.substr(0, finding.find(" at pixel"));
+  std::erase_if(kind, [](char c) { return c >= '0' && c <= '9'; });
+  return kind;
+}
+
 }  // namespace surefill::certify

@@ -31,6 +31,9 @@ bool valid(const corpus::Scene& scene);
 // properties::describe, and "vertex" as well.
 std::string describe_finding(const properties::Difference& difference, int samples);
 
+// What a finding is about, without its numbers: "count", "depth of an empty sample", or why there is no image.
+std::string kind_of_finding(const std::string& finding);
+
 }  // namespace surefill::certify
 
 #endif  // SUREFILL_CERTIFY_JUDGE_HPP

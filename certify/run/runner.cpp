@@ -35,7 +35,7 @@ double seconds_since(Clock::time_point start) {
 
 // The sums over the cases so far, and the finding of the smallest case number.
 struct Tally {
-  std::uint64_t done = 0, skipped = 0, failed = 0, samples = 0, differences = 0;
+  std::uint64_t done = 0, skipped = 0, failed = 0, samples = 0, open = 0, differences = 0;
   Deviations deviations;
   std::uint64_t number = ~std::uint64_t{0};
   CaseResult finding;
@@ -44,6 +44,7 @@ struct Tally {
     ++done;
     if (result.skipped) ++skipped;
     samples += result.samples;
+    open += result.open;
     differences += result.differences;
     deviations.take(result.deviations);
     if (result.differences == 0) return;
@@ -58,6 +59,7 @@ struct Tally {
     skipped += other.skipped;
     failed += other.failed;
     samples += other.samples;
+    open += other.open;
     differences += other.differences;
     deviations.take(other.deviations);
     if (other.number >= number) return;
@@ -149,8 +151,11 @@ void keep_finding(const Settings& settings, const Check& check, const std::strin
   corpus::Scene scene = original;
   const bool reducible = check.still_fails && check.still_fails(scene);
   if (reducible) {
-    const auto still_fails = [&check](const corpus::Scene& simpler) {
-      return !interrupted() && check.still_fails(simpler);
+    // What is smaller and shows another fault is no smaller scene of this one.
+    const std::string kind = check.group.empty() ? "" : kind_of_finding(difference_in(settings, check, scene));
+    const auto still_fails = [&settings, &check, &kind](const corpus::Scene& simpler) {
+      if (interrupted() || !check.still_fails(simpler)) return false;
+      return kind.empty() || kind_of_finding(difference_in(settings, check, simpler)) == kind;
     };
     scene = properties::reduce(std::move(scene), still_fails, {kReductionTime});
   }
@@ -189,6 +194,7 @@ void add_tally(Tally&& tally, CheckResult& result) {
   result.done += tally.done;
   result.skipped += tally.skipped;
   result.samples += tally.samples;
+  result.open += tally.open;
   result.differences += tally.differences;
   result.deviations.take(tally.deviations);
   const bool first = tally.failed > 0 && (result.failed == 0 || tally.number < result.case_number);

@@ -28,9 +28,10 @@ struct CheckResult {
   std::uint64_t due = 0;      // of them, in this shard
   std::uint64_t done = 0;     // of these, skipped ones included
   std::uint64_t resume = 0;   // of these, the first ones that are surely done and in the sums: where a run goes on
-  std::uint64_t skipped = 0;  // for modes that the engine does not have
+  std::uint64_t skipped = 0;  // not applicable: nothing of them is owed, or the engine has no such mode
   std::uint64_t failed = 0;   // cases with a difference
-  std::uint64_t samples = 0;  // compared
+  std::uint64_t samples = 0;  // judged
+  std::uint64_t open = 0;     // looked at and not judged, since the model leaves them open (R1)
   std::uint64_t differences = 0;
   double seconds = 0;
   Deviations deviations;
@@ -44,8 +45,9 @@ struct CheckResult {
 
   bool complete() const { return done == due; }
   bool passed() const { return complete() && failed == 0; }
-  // Passed, and there was something to look at.
-  bool checked() const { return passed() && done > skipped; }
+  // Passed, and there was something to look at (R16).
+  bool checked() const { return passed() && done > skipped && samples > 0; }
+  bool not_applicable() const { return passed() && !checked(); }
 };
 
 struct RunOptions {

@@ -230,8 +230,8 @@ TEST_F(Command, RefusesEditedCertificates) {
   }
   write("edited.json", edited(whole, "\"verdict\": \"certified\"", "\"verdict\": \"not_certified\""));
   expect_refused("merge edited.json", "checksum");
-  write("edited.json", edited(whole, "\"format_version\": 3", "\"format_version\": 2"));
-  expect_refused("merge edited.json", "another version: 2, where 3 is read");
+  write("edited.json", edited(whole, "\"format_version\": 4", "\"format_version\": 3"));
+  expect_refused("merge edited.json", "another version: 3, where 4 is read");
   write("edited.json", std::string(100000, '['));
   expect_refused("merge edited.json", "nested too deeply");
   write("edited.json", whole.substr(0, whole.size() / 2));

@@ -181,7 +181,7 @@ TEST_F(Drivers, OpenGlConventionsAreFound) {
   if (driver(options).empty()) GTEST_SKIP() << out;
   EXPECT_TRUE(says("rows from the bottom")) << out;
   EXPECT_TRUE(says("clip depth -1 to 1")) << out;
-  EXPECT_EQ(surefill("certify --jobs 1 --only 'model,partition-fan,mesh-perspective' " + options), 0) << out;
+  EXPECT_EQ(surefill("certify --jobs 1 --only 'model,partition-fan,tilings' " + options), 0) << out;
 }
 
 TEST_F(Drivers, VulkanIsUsedAsItsValidationLayerDemands) {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The zoo behind the adapter header: the argument names the rasterizer, a specimen of mutation/zoo or a right one:
-// "exact", "exact-second" or "grid-BITS-ROUNDING-CORNER", such as grid-8-nearest-even-top-left. "undeclared-" before a
+// "exact", "exact-second", "grid-BITS-ROUNDING-CORNER", such as grid-8-nearest-even-top-left, or "right-NUMBER", which
+// is right in its own way and says nothing of it (mutation/zoo/right.hpp). "undeclared-" before a
 // name: it does not say what its model is.
 #include <cstdio>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "certify/adapter.h"
 #include "certify/rivals/plugin_frame.hpp"
 #include "mutation/zoo/names.hpp"
+#include "mutation/zoo/right.hpp"
 #include "mutation/zoo/zoo.hpp"
 #include "oracle/oracle.hpp"
 
@@ -21,6 +23,7 @@ struct Instance {
   Status (*render)(const Target& target, zoo::Draws draws) = nullptr;
   std::optional<Grid> grid;  // of a rasterizer that has one model only; and its fill rule
   FillRule fill_rule = FillRule::top_left;
+  const zoo::Choices* right = nullptr;  // of one that is right in its own way
   std::string error;
 };
 
@@ -61,11 +64,18 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
     info->model = grid.model;
     info->features &= ~static_cast<std::uint32_t>(SUREFILL_ADAPTER_GRIDS | SUREFILL_ADAPTER_FILL_RULES);
   }
-  if (!instance.render) {
+  for (std::size_t n = 0; n < zoo::right_rasterizers().size(); ++n) {
+    if (name != zoo::right_name(n)) continue;
+    instance.right = &zoo::right_rasterizers()[n];
+    info->features = 0;
+    info->model = {};
+    info->model.profile = SUREFILL_ADAPTER_PROFILE_OPENGL;
+  }
+  if (!instance.render && !instance.right) {
     open_error = "the zoo has no rasterizer of this name: " + name + " (surefill zoo shows them)";
     return SUREFILL_ADAPTER_FAILED;
   }
-  if (undeclared) {
+  if (undeclared && !instance.right) {
     info->model = {};
     info->model.profile = SUREFILL_ADAPTER_PROFILE_EXACT;
   }
@@ -73,12 +83,17 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
   std::snprintf(info->version, sizeof info->version, "%s", SUREFILL_VERSION);
   info->outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH |
                   SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;
+  if (instance.right) info->outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH;
   *handle = new Instance(instance);
   return SUREFILL_ADAPTER_OK;
 }
 
 int draw(void* handle, const surefill_adapter_scene* scene, const surefill_adapter_image* image) {
   auto& instance = *static_cast<Instance*>(handle);
+  if (instance.right) {
+    instance.error = "vertices farther than 16384 pixels away";
+    return zoo::draw_right(*instance.right, *scene, *image) ? SUREFILL_ADAPTER_OK : SUREFILL_ADAPTER_UNSUPPORTED;
+  }
   adapters::PluginFrame frame(*scene, *image);
   if (instance.grid) {
     for (Draw& draw : frame.draws()) {

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/judge/facts.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace surefill::judge {
+
+namespace {
+
+constexpr int kSize = 8;
+constexpr std::size_t kMiddle = 2 * kSize + 2;                    // a sample that the large triangle covers in any case
+constexpr std::array<Point, 3> kLarge{{{0, 0}, {8, 0}, {0, 8}}};  // clockwise: a front face (F1)
+
+corpus::Outputs covering(const Rival& rival) {
+  corpus::Outputs wanted = rival.outputs();
+  wanted.barycentrics = wanted.attributes = false;
+  return wanted;
+}
+
+bool covers(Rival& rival, const corpus::Scene& scene) {
+  return is_covered(rival.draw(scene, covering(rival)), kMiddle);
+}
+
+// The large triangle, of the facing that is drawn, at this depth and W.
+corpus::Scene large(const Model& model, float z, float w = 1) {
+  corpus::Scene scene = flat_scene(kSize, kSize, {kLarge}, z);
+  for (corpus::SceneVertex& v : scene.draws[0].vertices) v.x *= w, v.y *= w, v.z *= w, v.w = w;
+  if (model.culled == Cull::front)
+    std::swap(scene.draws[0].triangles[0].vertices[1], scene.draws[0].triangles[0].vertices[2]);
+  return scene;
+}
+
+void infer_culling(Rival& rival, Inference& result) {
+  Model other = result.model;
+  other.culled = Cull::front;
+  const bool front = covers(rival, large(result.model, 0.5f)), back = covers(rival, large(other, 0.5f));
+  if (front && back) return;
+  if (!front && !back) {
+    result.problems.push_back(
+        "a triangle over half of a target of 8 x 8 pixels covers nothing, whichever way it turns");
+    return;
+  }
+  result.model.culled = front ? Cull::back : Cull::front;
+}
+
+void infer_w(Rival& rival, Inference& result) {
+  // From 1 outwards, to where nothing is drawn.
+  for (const int direction : {-1, 1}) {
+    for (int exponent = 0; std::abs(exponent) <= 30; exponent += 2 * direction) {
+      const float w = std::ldexp(1.0f, exponent);
+      if (covers(rival, large(result.model, 0.5f, w))) continue;
+      const double last = std::ldexp(1.0, exponent - 2 * direction);
+      (direction < 0 ? result.model.least_w : result.model.most_w) = last;
+      break;
+    }
+  }
+}
+
+void infer_clipping(Rival& rival, Inference& result) {
+  const bool before = covers(rival, large(result.model, -0.5f)), behind = covers(rival, large(result.model, 1.5f));
+  if (before && behind) return;
+  result.model.clipped = {before ? -INFINITY : 0.0, behind ? INFINITY : 1.0};
+}
+
+// What comes back of flat depths: to the bit, or in steps.
+void infer_format(Rival& rival, Inference& result) {
+  corpus::Outputs wanted{};
+  wanted.count = wanted.index = wanted.barycentrics = wanted.attributes = false;
+  bool exact = true, steps24 = true, steps16 = true;
+  double largest = 0;
+  for (int n = 0; n < 24; ++n) {
+    const auto z = static_cast<float>(std::fmod(0.1 + n * 0.6180339887498949, 0.96) + 0.02);
+    const corpus::Image image = rival.draw(large(result.model, z), wanted);
+    const double got = image.depth[kMiddle], error = std::abs(got - z);
+    if (!std::isfinite(got)) return;
+    exact = exact && error == 0;
+    largest = std::max(largest, error);
+    const auto is_step = [got](double steps) {
+      return std::abs(got - static_cast<double>(static_cast<float>(std::nearbyint(got * steps) / steps))) == 0;
+    };
+    steps24 = steps24 && is_step(0xFFFFFF);
+    steps16 = steps16 && is_step(0xFFFF);
+  }
+  result.exact_values = exact;
+  if (exact) return;
+  if (steps16 && largest <= 1.0 / 0xFFFF) {
+    result.model.format = oracle::DepthFormat::unorm16;
+  } else if (steps24 && largest <= 1.0 / 0xFFFFFF) {
+    result.model.format = oracle::DepthFormat::unorm24;
+  } else if (largest <= 0x1p-22) {
+    result.model.minus_one_to_one = true;
+  } else {
+    result.model.format = largest <= 2.0 / 0xFFFFFF ? oracle::DepthFormat::unorm24 : oracle::DepthFormat::unorm16;
+    if (largest > 2.0 / 0xFFFF) {
+      char text[96];
+      std::snprintf(text, sizeof text, "flat depths come back up to %.3g away from what was given", largest);
+      result.problems.push_back(text);
+    }
+  }
+}
+
+// Depth 1 is beaten by a clear value of 1, and two equal depths by the first or the last.
+void infer_visibility(Rival& rival, Inference& result, const corpus::Outputs& has) {
+  corpus::Outputs wanted{};
+  wanted.count = wanted.barycentrics = wanted.attributes = false;
+  wanted.index = has.index;
+  wanted.depth = has.depth && !has.index;
+  const auto seen = [&](float z) {
+    const corpus::Image image = rival.draw(large(result.model, z), wanted);
+    return has.index ? image.index[kMiddle] != kNoTriangle : std::isfinite(image.depth[kMiddle]);
+  };
+  if (!seen(1.0f) || !seen(2.0f)) result.model.clear = 1;
+  if (!has.index) return;
+  corpus::Scene twice = large(result.model, 0.5f);
+  twice.draws[0].triangles.push_back(twice.draws[0].triangles[0]);
+  result.model.later_wins = rival.draw(twice, wanted).index[kMiddle] == 1;
+}
+
+}  // namespace
+
+void infer_facts(Rival& rival, Inference& result) {
+  const corpus::Outputs has = rival.outputs();
+  const auto try_to = [&result](const char* what, const auto& find) {
+    try {
+      find();
+    } catch (const Declined& reason) {
+      result.open.push_back(std::string(what) + ": " + reason.what());
+    }
+  };
+  try_to("which facing it culls", [&] { infer_culling(rival, result); });
+  try_to("which W it takes", [&] { infer_w(rival, result); });
+  try_to("whether it clips depth", [&] { infer_clipping(rival, result); });
+  if (has.depth) try_to("how it keeps depth", [&] { infer_format(rival, result); });
+  if (has.index || has.depth) try_to("what is visible", [&] { infer_visibility(rival, result, has); });
+}
+
+Model with_facts(Model model, const Model& facts) {
+  model.culled = facts.culled;
+  model.least_w = facts.least_w;
+  model.most_w = facts.most_w;
+  model.clipped = facts.clipped;
+  model.format = facts.format;
+  model.minus_one_to_one = facts.minus_one_to_one;
+  model.later_wins = facts.later_wins;
+  model.clear = facts.clear;
+  return model;
+}
+
+}  // namespace surefill::judge

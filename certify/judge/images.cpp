@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/judge/images.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+#include "certify/judge/plane.hpp"
+#include "certify/judge/turns.hpp"
+
+namespace surefill::judge {
+
+namespace {
+
+constexpr int kGrantedRoundings = 64;  // R11
+constexpr double kClearSteps = 1.0 / 16;
+
+bool finite(const Vertex& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+// Beside 0, numbers of 2^-32 to 2^32: no standard says what becomes of others.
+bool ordinary(float value) {
+  return value == 0 || (std::abs(value) >= 0x1p-32f && std::abs(value) <= 0x1p32f);
+}
+
+struct Triangle {
+  std::array<std::uint32_t, 3> indices;
+  std::array<Vertex, 3> vertices;
+};
+
+Triangle triangle_of(const Draw& draw, std::size_t t) {
+  Triangle result{{draw.indices[3 * t], draw.indices[3 * t + 1], draw.indices[3 * t + 2]}, {}};
+  for (std::size_t i = 0; i < 3; ++i) result.vertices[i] = draw.vertices[result.indices[i]];
+  return result;
+}
+
+std::uint32_t identifier_of(const Draw& draw, std::size_t t) {
+  return draw.identifiers.empty() ? draw.first_index + static_cast<std::uint32_t>(t) : draw.identifiers[t];
+}
+
+// A rasterizer does not snap X/W but what it has rounded before: by so much, where W is no power of two.
+double divided_blur(const oracle::AxisModel& axis, double farthest) {
+  const double rounding = 0x1p-21 * farthest;
+  return axis.bits < 0 ? rounding : std::max(rounding, std::ldexp(kClearSteps, -axis.bits));
+}
+
+Cull in_default_facing(const Draw& draw) {
+  if (draw.cull == Cull::none || draw.front_face == FrontFace::clockwise) return draw.cull;
+  return draw.cull == Cull::front ? Cull::back : Cull::front;
+}
+
+bool attributes_finite(const Draw& draw, const Triangle& triangle) {
+  for (const AttributeArray& array : draw.attributes) {
+    const std::size_t stride = array.stride == 0 ? array.components : array.stride;
+    for (const std::uint32_t v : triangle.indices) {
+      for (std::size_t c = 0; c < array.components; ++c) {
+        if (!std::isfinite(array.values[v * stride + c])) return false;
+      }
+    }
+  }
+  return true;
+}
+
+struct Place {
+  double x, y;  // of the sample, as the model has it
+  int pixel_x, pixel_y;
+  std::size_t number;
+};
+
+Place place_of(const Model& model, const Frame& frame, std::size_t s) {
+  const auto samples = static_cast<std::size_t>(frame.samples), width = static_cast<std::size_t>(frame.width);
+  const SampleLocation at = sample_location(frame.samples, static_cast<int>(s % samples));
+  const std::size_t pixel = s / samples;
+  Place place{0, 0, static_cast<int>(pixel % width), static_cast<int>(pixel / width), s % samples};
+  place.x = place.pixel_x + at.x / 16.0 - 0.5 + model.x.place - model.x.moved;
+  place.y = place.pixel_y + at.y / 16.0 - 0.5 + model.y.place - model.y.moved;
+  place.x *= frame.width / (frame.width - model.x.lacks);
+  place.y *= frame.height / (frame.height - model.y.lacks);
+  return place;
+}
+
+double format_step(const Model& model) {
+  double step = model.minus_one_to_one ? 0x1p-22 : 0;
+  if (model.format == oracle::DepthFormat::unorm24) step += 1.0 / 0xFFFFFF;
+  if (model.format == oracle::DepthFormat::unorm16) step += 1.0 / 0xFFFF;
+  return step;
+}
+
+// How far from the sample a value may be taken: R11's p, the blur, and half a step of the grid.
+double distance_of(const Model& model) {
+  double moved = 0;
+  for (const oracle::AxisModel* axis : {&model.x, &model.y}) {
+    moved =
+        std::max(moved, std::max(axis->blur, axis->divided_blur) + (axis->bits < 0 ? 0 : std::ldexp(1.0, -axis->bits)));
+  }
+  return std::max(model.distance, moved);
+}
+
+// What is granted to depth at the sample.
+Range depth_range(const Model& model, const Triangle& triangle, const Edges& edges, const Place& at, double* value) {
+  std::array<double, 3> z{}, w{};
+  double largest = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    z[i] = triangle.vertices[i].z;
+    w[i] = triangle.vertices[i].w;
+    largest = std::max(largest, std::abs(z[i] / w[i]));
+  }
+  const Values values = values_around(edges, z, w, at.x, at.y, distance_of(model));
+  if (value) *value = values.value;
+  const double more = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126 + format_step(model);
+  return {values.range.low - more, values.range.high + more};
+}
+
+// Fragments that a clip to [low, high] takes away: yes or open becomes no or open.
+Cover clipped(Cover cover, const Range& depth, double low, double high) {
+  if (depth.high < low || depth.low > high) return Cover::no;
+  if (depth.low < low || depth.high > high) return Cover::open;
+  return cover;
+}
+
+std::string pixel_text(const Frame& frame, const Place& at) {
+  std::string text = "pixel (" + std::to_string(at.pixel_x) + ", " + std::to_string(at.pixel_y) + ")";
+  if (frame.samples > 1) text += " sample " + std::to_string(at.number);
+  return text;
+}
+
+std::string number(double value) {
+  char buffer[64];
+  std::snprintf(buffer, sizeof buffer, "%a (%.9g)", value, value);
+  return buffer;
+}
+
+std::string named(std::uint32_t index) {
+  return index == kNoTriangle ? "none" : std::to_string(index);
+}
+
+// The judge of one image.
+class Look {
+ public:
+  Look(const Terms& terms, const Frame& frame, const corpus::Image& image,
+       std::span<const corpus::SceneAttribute> names)
+      : terms_(terms), frame_(frame), image_(image), names_(names) {
+    for (std::size_t d = 0; d < frame.draws.size(); ++d) {
+      for (std::size_t t = 0; 3 * t < frame.draws[d].indices.size(); ++t) places_.push_back({d, t});
+    }
+  }
+
+  Judgement run(const Counts& counts, const Looks& looks) {
+    const std::size_t total = counts.least.size();
+    result_.differs.assign(total, 0);
+    for (std::size_t s = 0; s < total; ++s) {
+      const bool known = counts.least[s] == counts.most[s];
+      ++(known ? result_.samples : result_.open);
+      if (looks.counts && !image_.count.empty()) {
+        const std::uint32_t got = image_.count[s];
+        if (got < counts.least[s] || got > counts.most[s]) {
+          const std::string wanted = known ? std::to_string(counts.least[s])
+                                           : std::to_string(counts.least[s]) + " to " + std::to_string(counts.most[s]);
+          differs("count", s, wanted, std::to_string(got));
+          continue;
+        }
+      }
+      // Where one triangle covers a sample it is the visible one; where none does, the sample is empty.
+      if (!looks.values || !known || counts.least[s] > 1 || frame_.initial_depth) continue;
+      if (counts.least[s] == 0) {
+        look_at_empty(s);
+      } else if (counts.only[s] != kNoTriangle) {
+        look_at_values(s, counts.only[s]);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void differs(const std::string& what, std::size_t s, const std::string& expected, const std::string& actual) {
+    if (!result_.differs[s]) ++result_.differences;
+    result_.differs[s] = 1;
+    if (!result_.finding.empty()) return;
+    result_.sample = s;
+    result_.finding = what + " at " + pixel_text(frame_, place_of(terms_.model, frame_, s)) + ": expected " + expected +
+                      ", got " + actual;
+  }
+
+  void look_at_empty(std::size_t s) {
+    if (!image_.index.empty() && image_.index[s] != kNoTriangle) {
+      differs("index", s, "none", named(image_.index[s]));
+      return;
+    }
+    const float empty = frame_.depth_test == DepthTest::greater ? -std::numeric_limits<float>::infinity()
+                                                                : std::numeric_limits<float>::infinity();
+    if (image_.depth.empty() || image_.depth[s] == empty || image_.depth[s] == terms_.model.clear) return;
+    differs("depth of an empty sample", s, number(empty), number(image_.depth[s]));
+  }
+
+  void look_at_values(std::size_t s, std::uint32_t which) {
+    const auto [d, t] = places_[which];
+    const Draw& draw = frame_.draws[d];
+    const Model model = model_of_draw(terms_, frame_, draw);
+    const Triangle triangle = triangle_of(draw, t);
+    const Edges edges(triangle.vertices);
+    const Place at = place_of(model, frame_, s);
+    double z = 0;
+    const Range granted = depth_range(model, triangle, edges, at, &z);
+    // What meets the clear value may not be seen.
+    const bool greater = frame_.depth_test == DepthTest::greater;
+    if (std::isfinite(model.clear) && (greater ? granted.low <= 0 : granted.high >= model.clear)) return;
+    if (!image_.index.empty() && image_.index[s] != identifier_of(draw, t)) {
+      differs("index", s, named(identifier_of(draw, t)), named(image_.index[s]));
+      return;
+    }
+    if (!image_.depth.empty()) {
+      Range allowed = granted;
+      if (draw.depth_mode == DepthMode::clamp) {
+        const double step = format_step(model) + 0x1p-23;
+        allowed = {std::clamp(granted.low, -step, 1 + step), std::clamp(granted.high, -step, 1 + step)};
+        z = std::clamp(z, 0.0, 1.0);
+      }
+      note("depth", result_.deviations.depth, s, z, allowed, image_.depth[s]);
+    }
+    // With several samples, where in the pixel a value is taken is for M1 to say and the standards to leave open.
+    if (frame_.samples > 1) return;
+    const std::array<double, 3> ones{1, 1, 1};
+    std::array<double, 3> w{};
+    for (std::size_t i = 0; i < 3; ++i) w[i] = triangle.vertices[i].w;
+    const auto look = [&](const std::string& name, Deviation& deviation, const std::array<double, 3>& above,
+                          const std::array<double, 3>& below, double largest, float actual) {
+      if (!std::isfinite(largest)) return;
+      const Values values = values_around(edges, above, below, at.x, at.y, distance_of(model));
+      const double more = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126;
+      note(name, deviation, s, values.value, {values.range.low - more, values.range.high + more}, actual);
+    };
+    for (std::size_t i = 0; i < 3 && !image_.barycentrics.empty(); ++i) {
+      std::array<double, 3> unit{};
+      unit[i] = 1;
+      look("barycentric b" + std::to_string(i), result_.deviations.barycentrics, unit, ones, 1,
+           image_.barycentrics[3 * s + i]);
+    }
+    for (std::size_t k = 0; k < image_.attributes.size() && k < draw.attributes.size(); ++k) {
+      if (image_.attributes[k].empty()) continue;
+      const AttributeArray& array = draw.attributes[k];
+      const std::size_t stride = array.stride == 0 ? array.components : array.stride;
+      for (std::size_t c = 0; c < array.components; ++c) {
+        std::array<double, 3> u{}, above{}, below = ones;
+        for (std::size_t i = 0; i < 3; ++i) above[i] = u[i] = array.values[triangle.indices[i] * stride + c];
+        if (array.interpolation == Interpolation::flat) u = above = {u[0], u[0], u[0]};
+        if (array.interpolation == Interpolation::noperspective) {
+          below = w;
+          for (std::size_t i = 0; i < 3; ++i) above[i] = u[i] * w[i];
+        }
+        const double largest = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
+        look(names_[k].name, result_.deviations.attributes, above, below, largest,
+             image_.attributes[k][array.components * s + c]);
+      }
+    }
+  }
+
+  // Notes the error of one value, in ULP of the largest number that is granted (next to 0 its own ULP says nothing of
+  // how it was found).
+  void note(const std::string& name, Deviation& deviation, std::size_t s, double expected, const Range& granted,
+            float actual) {
+    if (!std::isfinite(granted.low) || !std::isfinite(granted.high)) return;
+    const double error = std::abs(actual - expected);
+    const double allowed = std::max(granted.high - expected, expected - granted.low);
+    const bool good = actual >= granted.low && actual <= granted.high;
+    if (std::isfinite(error)) {
+      // Numbers below 2^-32 are not judged.
+      const double scale = std::max({std::abs(granted.low), std::abs(granted.high), 0x1p-32});
+      deviation.ulp = std::max(deviation.ulp, error / std::ldexp(1.0, std::ilogb(scale) - 23));
+      deviation.granted = std::max(deviation.granted, error / allowed);
+    }
+    if (!good) differs(name, s, number(static_cast<float>(expected)), number(actual));
+  }
+
+  struct Of {
+    std::size_t draw, triangle;
+  };
+  const Terms& terms_;
+  const Frame& frame_;
+  const corpus::Image& image_;
+  std::span<const corpus::SceneAttribute> names_;
+  std::vector<Of> places_;
+  Judgement result_;
+};
+
+}  // namespace
+
+std::uint64_t Counts::judged() const {
+  std::uint64_t n = 0;
+  for (std::size_t s = 0; s < least.size(); ++s) n += static_cast<std::uint64_t>(least[s] == most[s]);
+  return n;
+}
+
+std::string why_open(const Terms& terms, const Frame& frame) {
+  for (const Draw& draw : frame.draws) {
+    if (draw.conservative != Conservative::none) return "conservative rasterization has no model";
+    for (const Vertex& v : draw.vertices) {
+      if (!ordinary(v.x) || !ordinary(v.y) || !ordinary(v.z) || !ordinary(v.w))
+        return "numbers beyond 2^32 or below 2^-32";
+    }
+    for (const AttributeArray& array : draw.attributes) {
+      for (const float value : array.values) {
+        if (!ordinary(value)) return "numbers beyond 2^32 or below 2^-32";
+      }
+    }
+    const bool own_grid = terms.draws_own_grid && draw.grid;
+    if (!terms.known && own_grid) return "a grid of the draw's, where no model is known";
+  }
+  return "";
+}
+
+Model model_of_draw(const Terms& terms, const Frame& frame, const Draw& draw) {
+  Model model = terms.model;
+  if (terms.known && terms.draws_own_rule) {
+    model.front = model.back = oracle::owners_of(draw.fill_rule);
+    model.vertices = oracle::AtVertices::as_edges;
+  }
+  if (terms.known && terms.draws_own_grid) {
+    for (oracle::AxisModel* axis : {&model.x, &model.y}) {
+      axis->bits = draw.grid ? draw.grid->bits : -1;
+      if (!draw.grid) continue;
+      constexpr oracle::Rounding kNames[] = {oracle::Rounding::nearest_even, oracle::Rounding::nearest_up,
+                                             oracle::Rounding::truncate};
+      axis->rounding = kNames[static_cast<std::size_t>(draw.grid->rounding)];
+      const int offset = axis == &model.x ? draw.grid->offset_x : draw.grid->offset_y;
+      axis->grid_offset = std::ldexp(offset, -draw.grid->bits - 4);
+    }
+  }
+  double farthest = std::max(frame.width, frame.height);
+  for (const Vertex& v : draw.vertices) {
+    if (!finite(v) || !(v.w > 0)) continue;
+    farthest = std::max({farthest, std::abs(static_cast<double>(v.x) / v.w), std::abs(static_cast<double>(v.y) / v.w)});
+  }
+  farthest = std::min(farthest, 0x1p14);
+  // Blur was found within kTurnLength pixels, and what rounds on the way rounds more of what is larger.
+  model.x.blur *= std::max(1.0, farthest / kTurnLength);
+  model.y.blur *= std::max(1.0, farthest / kTurnLength);
+  model.x.divided_blur = divided_blur(model.x, farthest);
+  model.y.divided_blur = divided_blur(model.y, farthest);
+  return model;
+}
+
+Counts counts_under(const Expected& expected, const Terms& terms, const Frame& frame) {
+  const std::size_t total = static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height) *
+                            static_cast<std::size_t>(frame.samples);
+  Counts counts;
+  counts.least.assign(total, 0);
+  counts.most.assign(total, 0);
+  counts.only.assign(total, kNoTriangle);
+  std::uint32_t which = 0;
+  for (const Draw& draw : frame.draws) {
+    Model model = model_of_draw(terms, frame, draw);
+    const Cull cull = in_default_facing(draw);
+    const bool nothing = model.culled != Cull::none && cull != Cull::none && cull != model.culled;
+    if (cull != Cull::none) model.culled = cull;
+    for (std::size_t t = 0; 3 * t < draw.indices.size(); ++t, ++which) {
+      const Triangle triangle = triangle_of(draw, t);
+      if (nothing || !std::all_of(triangle.vertices.begin(), triangle.vertices.end(), finite) ||
+          !attributes_finite(draw, triangle)) {
+        continue;
+      }
+      const std::vector<Cover> covers =
+          expected.cover(model, frame.width, frame.height, frame.samples, triangle.vertices);
+      const bool clips = draw.depth_mode == DepthMode::clip || model.clipped;
+      const Edges edges(triangle.vertices);
+      for (std::size_t s = 0; s < total; ++s) {
+        Cover cover = covers[s];
+        if (cover == Cover::no) continue;
+        const Place at = place_of(model, frame, s);
+        if (draw.scissor && (at.pixel_x < draw.scissor->x0 || at.pixel_x >= draw.scissor->x1 ||
+                             at.pixel_y < draw.scissor->y0 || at.pixel_y >= draw.scissor->y1)) {
+          continue;
+        }
+        if (clips) {
+          const Range depth = depth_range(model, triangle, edges, at, nullptr);
+          if (draw.depth_mode == DepthMode::clip) cover = clipped(cover, depth, 0, 1);
+          if (model.clipped && cover != Cover::no) {
+            cover = clipped(cover, depth, (*model.clipped)[0], (*model.clipped)[1]);
+          }
+        }
+        if (cover == Cover::no) continue;
+        ++counts.most[s];
+        if (cover != Cover::yes) continue;
+        counts.only[s] = ++counts.least[s] == 1 ? which : kNoTriangle;
+      }
+    }
+  }
+  return counts;
+}
+
+Judgement judge_image(const Expected& expected, const Terms& terms, const Frame& frame, const corpus::Image& image,
+                      const Looks& looks, std::span<const corpus::SceneAttribute> names) {
+  return Look(terms, frame, image, names).run(counts_under(expected, terms, frame), looks);
+}
+
+}  // namespace surefill::judge

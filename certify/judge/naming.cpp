@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/judge/naming.hpp"
+
+#include <algorithm>
+#include <bit>
+
+namespace surefill::judge {
+
+namespace {
+
+using corpus::Image;
+
+// The outputs of one sample, equal or not; what an image lacks is equal.
+bool same_sample(const Image& a, const Image& b, std::size_t s, bool counts_only) {
+  const auto bits = [](float value) { return value != value ? 0x7FC00000u : std::bit_cast<std::uint32_t>(value); };
+  const auto same = [s](const auto& x, const auto& y) { return x.empty() || y.empty() || x[s] == y[s]; };
+  const auto same_floats = [&](const std::vector<float>& x, const std::vector<float>& y, std::size_t n) {
+    for (std::size_t i = n * s; i < n * (s + 1) && !x.empty() && !y.empty(); ++i) {
+      if (bits(x[i]) != bits(y[i])) return false;
+    }
+    return true;
+  };
+  if (!same(a.count, b.count)) return false;
+  if (counts_only) return true;
+  if (!same(a.index, b.index) || !same_floats(a.depth, b.depth, 1) || !same_floats(a.barycentrics, b.barycentrics, 3)) {
+    return false;
+  }
+  const std::size_t total = a.count.size();
+  for (std::size_t k = 0; k < std::min(a.attributes.size(), b.attributes.size()); ++k) {
+    if (!same_floats(a.attributes[k], b.attributes[k], total == 0 ? 1 : a.attributes[k].size() / total)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wrong> wrong, bool counts_only,
+                             double least) {
+  std::vector<Name> names;
+  for (const Fault& fault : faults) {
+    // Each scene has one vote, so that a large one does not outvote the others.
+    double sum = 0;
+    Name name{&fault, 0, 0};
+    std::size_t scenes = 0;
+    for (const Wrong& shown : wrong) {
+      corpus::Outputs outputs{!shown.rival.count.empty(), !shown.rival.index.empty(), !shown.rival.depth.empty(),
+                              !shown.rival.barycentrics.empty(), !shown.rival.attributes.empty()};
+      corpus::Frame frame(shown.scene, outputs);
+      if (fault.render(frame.target(), frame.draws()) != Status::ok) continue;
+      std::uint64_t either = 0, alike = 0;
+      const std::size_t total = shown.rival.count.size();
+      for (std::size_t s = 0; s < total; ++s) {
+        const bool rival = !same_sample(shown.rival, shown.right, s, counts_only);
+        const bool theirs = !same_sample(frame.image(), shown.right, s, counts_only);
+        if (!rival && !theirs) continue;
+        ++either;
+        if (same_sample(frame.image(), shown.rival, s, counts_only)) ++alike;
+      }
+      if (either == 0) continue;
+      sum += static_cast<double>(alike) / static_cast<double>(either);
+      name.samples += alike;
+      ++scenes;
+    }
+    if (scenes == 0) continue;
+    name.agreement = sum / static_cast<double>(scenes);
+    if (name.agreement >= least) names.push_back(name);
+  }
+  std::stable_sort(names.begin(), names.end(), [](const Name& a, const Name& b) { return a.agreement > b.agreement; });
+  return names;
+}
+
+}  // namespace surefill::judge

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// A fault's name: of rasterizers that are known to be wrong in one way each, the one that draws what the rival draws.
+#ifndef SUREFILL_CERTIFY_JUDGE_NAMING_HPP
+#define SUREFILL_CERTIFY_JUDGE_NAMING_HPP
+
+#include <functional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "corpus/scene.hpp"
+
+namespace surefill::judge {
+
+// One way to be wrong.
+struct Fault {
+  std::string name;      // "edges-inclusive"
+  std::string sentence;  // "samples on edges belong to both sides"
+  std::string origin;    // where it was seen; may be empty
+  std::function<Status(const Target&, std::span<const Draw>)> render;
+};
+
+// A scene on which the rival is wrong, with its image and the right one, of the same outputs.
+struct Wrong {
+  corpus::Scene scene;
+  corpus::Image right, rival;
+};
+
+// How well a fault explains what is wrong: of all samples that it or the rival draws wrongly, those that both draw alike.
+struct Name {
+  const Fault* fault = nullptr;
+  double agreement = 0;  // 0..1
+  std::uint64_t samples = 0;
+};
+
+// The best explanation first; none below `least`. Equal ones are in the order of the faults. With `counts_only` all else
+// is left out, as where values are not exact.
+std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wrong> wrong, bool counts_only,
+                             double least = 0.5);
+
+}  // namespace surefill::judge
+
+#endif  // SUREFILL_CERTIFY_JUDGE_NAMING_HPP

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The plane equations of section 2 in long double, with bounds of their errors: what values a triangle has around a
+// sample (R11).
+#ifndef SUREFILL_CERTIFY_JUDGE_PLANE_HPP
+#define SUREFILL_CERTIFY_JUDGE_PLANE_HPP
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+
+#include "surefill/surefill.hpp"
+
+namespace surefill::judge {
+
+// Relative error of an edge function in long double, with room to spare.
+inline constexpr long double kRoundings = 0x1p-55L;
+
+struct Edges {
+  std::array<std::array<long double, 3>, 3> e{}, magnitude{};
+  long double d = 0, d_magnitude = 0;
+
+  explicit Edges(const std::array<Vertex, 3>& v) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vertex &p = v[(i + 1) % 3], &q = v[(i + 2) % 3];
+      const std::array<long double, 3> m{p.x, p.y, p.w}, n{q.x, q.y, q.w};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t j = (c + 1) % 3, k = (c + 2) % 3;
+        e[i][c] = m[j] * n[k] - m[k] * n[j];
+        magnitude[i][c] = std::abs(m[j] * n[k]) + std::abs(m[k] * n[j]);
+      }
+    }
+    const std::array<long double, 3> m{v[0].x, v[0].y, v[0].w};
+    for (std::size_t c = 0; c < 3; ++c) {
+      d += m[c] * e[0][c];
+      d_magnitude += std::abs(m[c]) * magnitude[0][c];
+    }
+  }
+  long double at(std::size_t i, double x, double y) const { return e[i][0] * x + e[i][1] * y + e[i][2]; }
+  long double error(std::size_t i, double x, double y) const {
+    return kRoundings * (magnitude[i][0] * std::abs(x) + magnitude[i][1] * std::abs(y) + magnitude[i][2]);
+  }
+};
+
+struct Range {
+  double low, high;
+};
+
+// The value (sum above_i E_i) / (sum below_i E_i) at the sample, and within `distance` of it each way.
+struct Values {
+  Range range;
+  double value;
+};
+inline Values values_around(const Edges& edges, const std::array<double, 3>& above, const std::array<double, 3>& below,
+                            double x, double y, double distance) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Values result{{kInfinity, -kInfinity}, 0};
+  long double sign = 0;
+  for (const double dx : {-distance, 0.0, distance}) {
+    for (const double dy : {-distance, 0.0, distance}) {
+      long double numerator = 0, denominator = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const long double e = edges.at(i, x + dx, y + dy);
+        numerator += above[i] * e;
+        denominator += below[i] * e;
+      }
+      // A pole between the places: nothing is granted, since anything is.
+      if (denominator == 0 || sign * denominator < 0) return {{-kInfinity, kInfinity}, 0};
+      sign = denominator;
+      const auto value = static_cast<double>(numerator / denominator);
+      if (dx == 0 && dy == 0) result.value = value;
+      result.range.low = std::min(result.range.low, value);
+      result.range.high = std::max(result.range.high, value);
+    }
+  }
+  return result;
+}
+
+}  // namespace surefill::judge
+
+#endif  // SUREFILL_CERTIFY_JUDGE_PLANE_HPP

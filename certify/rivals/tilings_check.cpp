@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/rivals/tilings_check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "certify/judge/plane.hpp"
+#include "properties/machinery/trial.hpp"
+
+namespace surefill::certify {
+
+namespace {
+
+using corpus::Scene;
+using properties::Random;
+
+struct Size {
+  int width, height;
+};
+constexpr double kAround = 1.0 / 16;
+constexpr Size kLarge{1920, 1080}, kMiddle{480, 270}, kSmall{64, 48};
+
+// Lines that the mesh's corners lie near, from before 0 to beyond the length: from 1 to 500 pixels apart, 1 beside 500
+// now and then.
+std::vector<double> lines(Random& random, int length, bool equal) {
+  constexpr double kEqual = 24;
+  std::vector<double> at{-kEqual};
+  while (at.back() < length + 8) {
+    const double gap = equal ? kEqual : std::exp(std::log(500.0) * random.unit());
+    at.push_back(at.back() + std::max(1.0, gap));
+  }
+  return at;
+}
+
+// A quarter of the way to the nearest other line is what a corner is moved by at most, so that every triangle stays high
+// enough for no grid of 4 bits to turn it over.
+double room(const std::vector<double>& at, std::size_t i) {
+  const double before = i == 0 ? 24 : at[i] - at[i - 1], behind = i + 1 == at.size() ? 24 : at[i + 1] - at[i];
+  return std::min({before, behind, 24.0}) / 4;
+}
+
+// Quads all over the target and beyond, cut along one diagonal or the other. In perspective W differs from vertex to vertex
+// and is no power of two, so X/W is rounded by whoever divides; neighbours share the rounded vertex.
+Scene mesh(std::uint64_t seed, const Size& size, bool equal, bool perspective) {
+  Random random(seed);
+  Scene scene;
+  scene.width = size.width;
+  scene.height = size.height;
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  const std::vector<double> xs = lines(random, size.width, equal), ys = lines(random, size.height, equal);
+  for (std::size_t j = 0; j < ys.size(); ++j) {
+    for (std::size_t i = 0; i < xs.size(); ++i) {
+      const float w = perspective ? static_cast<float>(1 + 15 * random.unit()) : 1;
+      const double x = xs[i] + room(xs, i) * (2 * random.unit() - 1);
+      const double y = ys[j] + room(ys, j) * (2 * random.unit() - 1);
+      // Without perspective to 1/1024 pixel, so that clip space has them exactly.
+      const auto place = [&](double p) {
+        return perspective ? static_cast<float>(p * w) : static_cast<float>(std::nearbyint(p * 1024) / 1024);
+      };
+      draw.vertices.push_back({place(x), place(y), w / 2, w, {}});
+    }
+  }
+  for (std::size_t j = 0; j + 1 < ys.size(); ++j) {
+    for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+      const auto a = static_cast<std::uint32_t>(j * xs.size() + i);
+      const std::uint32_t b = a + 1, c = a + static_cast<std::uint32_t>(xs.size()), d = c + 1;
+      if (random.one_in(2)) {
+        draw.triangles.push_back({{a, b, c}, std::nullopt});
+        draw.triangles.push_back({{c, b, d}, std::nullopt});
+      } else {
+        draw.triangles.push_back({{a, b, d}, std::nullopt});
+        draw.triangles.push_back({{a, d, c}, std::nullopt});
+      }
+    }
+  }
+  return scene;
+}
+
+std::vector<std::uint32_t> counts_of(adapters::Rival& rival, const Scene& scene) {
+  corpus::Frame frame(scene, {true, false, false, false, false});
+  rival.draw(frame.target(), frame.draws());
+  return frame.image().count;
+}
+
+std::string found_at(const Scene& scene, std::size_t sample, std::uint32_t count) {
+  const auto width = static_cast<std::size_t>(scene.width);
+  return fmt::format("count of a tiling at pixel ({}, {}): expected 1, got {}", sample % width, sample / width, count);
+}
+
+// The triangles within two pixels of the sample, by their boxes.
+Scene near_sample(const Scene& scene, std::size_t sample) {
+  Scene part = scene;
+  corpus::SceneDraw& draw = part.draws[0];
+  const auto width = static_cast<std::size_t>(scene.width);
+  const double x = static_cast<double>(sample % width) + 0.5, y = static_cast<double>(sample / width) + 0.5;
+  std::erase_if(draw.triangles, [&](const corpus::SceneTriangle& triangle) {
+    double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
+    for (const std::uint32_t v : triangle.vertices) {
+      const corpus::SceneVertex& p = draw.vertices[v];
+      x0 = std::min(x0, static_cast<double>(p.x) / p.w);
+      x1 = std::max(x1, static_cast<double>(p.x) / p.w);
+      y0 = std::min(y0, static_cast<double>(p.y) / p.w);
+      y1 = std::max(y1, static_cast<double>(p.y) / p.w);
+    }
+    return x < x0 - 2 || x > x1 + 2 || y < y0 - 2 || y > y1 + 2;
+  });
+  return part;
+}
+
+// Targets of which the rival draws such a mesh in a good part of its time limit: a program is timed once, on a small one.
+class Sizes {
+ public:
+  explicit Sizes(const RivalSubject& subject) : subject_(subject) {}
+
+  Size largest() {
+    std::call_once(once_, [this] {
+      const surefill_adapter_info& info = subject_.rival->info();
+      size_ = subject_.slow ? kSmall : info.form == SUREFILL_ADAPTER_FORM_CLIP ? kLarge : kMiddle;
+      if (subject_.slow) {
+        const auto start = std::chrono::steady_clock::now();
+        try {
+          (void)counts_of(*subject_.rival, mesh(1, kSmall, true, false));
+          const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+          // Some fifty times the samples, and no more triangles.
+          if (seconds < 0.01) size_ = kMiddle;
+        } catch (const std::exception&) {
+          // The check itself says what came of it.
+        }
+      }
+      if (info.max_width != 0) size_.width = std::min(size_.width, static_cast<int>(info.max_width));
+      if (info.max_height != 0) size_.height = std::min(size_.height, static_cast<int>(info.max_height));
+    });
+    return size_;
+  }
+
+ private:
+  const RivalSubject& subject_;
+  std::once_flag once_;
+  Size size_ = kSmall;
+};
+
+CaseResult whole_mesh(const RivalSubject& subject, const Size& size, std::uint64_t number, std::uint64_t seed) {
+  const Scene scene = mesh(seed, size, number % 4 == 0, number % 2 == 0);
+  if (!subject.strict && (!subject.terms.known || !still_tiles(scene, subject))) return not_applicable();
+  return guarded_case(scene, [&] {
+    CaseResult result;
+    const std::vector<std::uint32_t> counts = counts_of(*subject.rival, scene);
+    result.samples = counts.size();
+    std::size_t uncovered = 0, first = counts.size();
+    for (std::size_t s = 0; s < counts.size(); ++s) {
+      if (counts[s] == 1) continue;
+      ++result.differences;
+      if (counts[s] == 0) ++uncovered;
+      first = std::min(first, s);
+    }
+    if (result.differences == 0) return result;
+    result.finding = fmt::format("{}; in this mesh {} samples are uncovered, {} are covered twice or more",
+                                 found_at(scene, first, counts[first]), uncovered, result.differences - uncovered);
+    result.scene = near_sample(scene, first);
+    return result;
+  });
+}
+
+// Is each of eight points 1/16 pixel around the sample covered once, beyond doubt? Then so is the sample, by whoever
+// decides neighbours alike.
+bool covered_around(const std::vector<judge::Edges>& triangles, double x, double y) {
+  for (const double dx : {-kAround, 0.0, kAround}) {
+    for (const double dy : {-kAround, 0.0, kAround}) {
+      if (dx == 0 && dy == 0) continue;
+      int covers = 0;
+      for (const judge::Edges& edges : triangles) {
+        if (!(std::abs(edges.d) > judge::kRoundings * edges.d_magnitude)) return false;
+        bool inside = true;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const long double value = edges.at(i, x + dx, y + dy);
+          if (!(std::abs(value) > edges.error(i, x + dx, y + dy))) return false;
+          inside = inside && (value > 0) == (edges.d > 0);
+        }
+        if (inside) ++covers;
+      }
+      if (covers != 1) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+std::string crack_in(adapters::Rival& rival, const Scene& scene) {
+  try {
+    const std::vector<std::uint32_t> counts = counts_of(rival, scene);
+    std::vector<judge::Edges> triangles;
+    for (const corpus::SceneDraw& draw : scene.draws) {
+      for (const corpus::SceneTriangle& triangle : draw.triangles) {
+        triangles.emplace_back(properties::triangle_of(draw, triangle));
+      }
+    }
+    const auto width = static_cast<std::size_t>(scene.width);
+    for (std::size_t s = 0; s < counts.size(); ++s) {
+      if (counts[s] == 1) continue;
+      const double x = static_cast<double>(s % width) + 0.5, y = static_cast<double>(s / width) + 0.5;
+      if (covered_around(triangles, x, y)) return found_at(scene, s, counts[s]);
+    }
+    return "";
+  } catch (const adapters::RivalSkips&) {
+    return "";
+  } catch (const adapters::RivalFailure& failure) {
+    return failure.what();
+  }
+}
+
+void make_tilings_check(const Settings& settings, const RivalSubject& subject, Check& check) {
+  check.claim = "meshes of triangles from 1 to 500 pixels, side by side, cover each sample once";
+  check.unit = "meshes";
+  check.cost = 0.1;
+  const auto sizes = std::make_shared<Sizes>(subject);
+  check.prepare = [cases = subject.slow ? by_level<std::uint64_t>(settings.level, 8, 100, 2000)
+                                        : by_level<std::uint64_t>(settings.level, 8, 80, 2000)] { return cases; };
+  check.run = [seed = settings.seed, name = check.name, &subject, sizes](std::uint64_t number) {
+    return whole_mesh(subject, sizes->largest(), number, case_seed(seed, name, number));
+  };
+  adapters::Rival& rival = *subject.rival;
+  check.still_fails = [&rival](const Scene& scene) {
+    const bool plain = scene.samples == 1 && scene.draws.size() == 1 && scene.draws[0].vertices.size() >= 3;
+    const adapters::Rival::Uncounted uncounted(rival);
+    return plain && rival.is_reducible() && !crack_in(rival, scene).empty();
+  };
+  check.describe = [&rival](const Scene& scene) { return crack_in(rival, scene); };
+}
+
+}  // namespace surefill::certify

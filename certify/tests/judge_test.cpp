@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The judge on rasterizers that are right in their own way: its model is found, and nobody is accused. They are those of
+// mutation/zoo/right.hpp, drawn in this process; A1 to A14 are the kinds of right behaviour that were once called wrong.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "certify/judge/images.hpp"
+#include "certify/judge/inference.hpp"
+#include "certify/judge/words.hpp"
+#include "certify/rivals/frame.hpp"
+#include "certify/rivals/model.hpp"
+#include "mutation/zoo/right.hpp"
+#include "properties/generators/generators.hpp"
+
+namespace surefill::judge {
+namespace {
+
+using zoo::Choices;
+
+// The control: integers, 8 bits, nearest-up, top-left, float32 depth.
+Choices control() {
+  Choices choices{};
+  choices[zoo::kBits] = 1;
+  return choices;
+}
+
+Choices with(std::initializer_list<std::pair<zoo::Choice, int>> changes) {
+  Choices choices = control();
+  for (const auto& [choice, value] : changes) choices[choice] = value;
+  return choices;
+}
+
+class Right : public Rival {
+ public:
+  explicit Right(const Choices& choices, bool onscreen_only = false)
+      : choices_(choices), onscreen_only_(onscreen_only) {}
+  corpus::Outputs outputs() const override { return {true, true, true, false, false}; }
+  double position_step() const override { return 0; }
+  corpus::Image draw(const corpus::Scene& scene, const corpus::Outputs& wanted) override {
+    corpus::Outputs outputs = wanted;
+    outputs.barycentrics = outputs.attributes = false;
+    corpus::Frame frame(scene, outputs);
+    for (const Draw& draw : frame.draws()) {
+      for (const Vertex& v : draw.vertices) {
+        if (!(v.w > 0) || (onscreen_only_ && (v.x < 0 || v.y < 0))) throw Declined("not such a vertex");
+      }
+    }
+    const adapters::AdapterFrame adapted(frame.target(), frame.draws());
+    if (!zoo::draw_right(choices_, adapted.scene(), adapted.image())) throw Declined("too far");
+    return std::move(frame.image());
+  }
+
+ private:
+  Choices choices_;
+  bool onscreen_only_;
+};
+
+// Random scenes held to what was found, and how many samples were judged.
+std::uint64_t judged_samples(Right& rival, const Inference& found, const std::string& name) {
+  Terms terms;
+  terms.model = found.model;
+  terms.known = found.known;
+  std::uint64_t judged = 0;
+  properties::SceneLimits limits;
+  limits.state = limits.attributes = false;
+  const auto categories = properties::categories();
+  for (std::uint64_t n = 0; n < 400; ++n) {
+    corpus::Scene scene = properties::random_scene(categories[n % categories.size()], n, limits);
+    for (corpus::SceneDraw& draw : scene.draws) {
+      draw.viewport.reset();
+      for (corpus::SceneVertex& v : draw.vertices) v.z = std::clamp(v.z, 0.0f, std::max(v.w, 0.0f));
+    }
+    corpus::Frame frame(scene, rival.outputs());
+    const Frame seen{scene.width, scene.height, scene.samples, scene.depth_test, false, frame.draws()};
+    if (!why_open(terms, seen).empty()) continue;
+    corpus::Image image;
+    try {
+      image = rival.draw(scene, rival.outputs());
+    } catch (const Declined&) {
+      continue;
+    }
+    const Judgement judgement = judge_image(adapters::oracle_expected(), terms, seen, image, {}, scene.attributes);
+    EXPECT_EQ(judgement.differences, 0u) << name << ", scene " << n << ": " << judgement.finding << "\n"
+                                         << describe(found.model) << "\n"
+                                         << corpus::write_scene(scene);
+    if (judgement.differences != 0) break;
+    judged += judgement.samples;
+  }
+  return judged;
+}
+
+struct Case {
+  const char* name;
+  Choices choices;
+  bool onscreen_only;
+  const char* says;  // among what describes the model, or departs from the usual one
+};
+
+TEST(Judge, RightBehaviourIsFoundAndNotAccused) {
+  using namespace zoo;
+  const Case cases[] = {
+      {"control", control(), false, "grid of 8 bits, nearest-up; fill rule top-left"},
+      {"A2, on screen only", control(), true, "grid of 8 bits, nearest-up"},
+      {"A3, float32 on the way", with({{kBlur, 1}}), false, "blurred by up to"},
+      {"A4, floor", with({{kRounding, 3}}), false, "grid of 8 bits, floor"},
+      {"A5, the corner", with({{kPlace, 1}}), false, "samples are taken half a pixel to the left and half a pixel"},
+      {"A6, depth in double", with({{kFormat, 1}}), false, "grid of 8 bits"},
+      {"A7, depth of 24 bits", with({{kFormat, 2}}), false, "depth of 24 bits"},
+      {"A7, depth of 16 bits", with({{kFormat, 3}}), false, "depth of 16 bits"},
+      {"A8, from -1 to 1", with({{kRange, 1}}), false, "depth goes through -1 to 1"},
+      {"A9, cleared to 1", with({{kClear, 1}}), false, "depth is cleared to 1"},
+      {"A10, LEQUAL", with({{kTest, 1}}), false, "of equal depths the later one comes"},
+      {"A11, clips always", with({{kClip, 1}}), false, "it always clips depth to 0 to 1"},
+      {"A12, a near plane", with({{kNear, 1}}), false, "it draws nothing of W below 0.015625"},
+      {"A14, turned ones left out", with({{kSlivers, 1}, {kBits, 2}}), false, "grid of 4 bits"},
+      {"A14, small ones left out", with({{kSlivers, 2}}), false, "it leaves out triangles smaller than"},
+      {"A14, culls one side", with({{kFacing, 1}}), false, "it always leaves out back faces"},
+      {"both own level edges", with({{kOwners, 5}}), false, "both sides own level edges"},
+      {"closed", with({{kOwners, 3}}), false, "fill rule closed"},
+      {"by facing", with({{kOwners, 6}}), false, "of back faces bottom-right"},
+      {"by order", with({{kOwners, 7}}), false, "who owns samples on their edges"},
+      {"a viewport of a pixel less", with({{kViewport, 1}}), false, "the viewport is 1 pixels too small"},
+      {"double without a grid", with({{kCode, 2}, {kBits, 0}}), false, "positions exact"},
+      {"7/12", with({{kPlace, 3}}), false, "samples at (0.58"},
+      {"other bits in y", with({{kOtherBits, 1}}), false, "y: 6 bits"},
+  };
+  for (const Case& one : cases) {
+    Right rival(one.choices, one.onscreen_only);
+    const Inference found = infer(rival, adapters::oracle_expected(), std::nullopt);
+    std::string words = describe(found.model);
+    for (const std::string& sentence : departures(found.model)) words += "\n" + sentence;
+    EXPECT_TRUE(found.known) << one.name << ": " << words << "\n" << turns_text(found.turns);
+    EXPECT_TRUE(found.problems.empty()) << one.name << ": " << found.problems.front();
+    EXPECT_NE(words.find(one.says), std::string::npos) << one.name << ": " << words;
+    EXPECT_GT(judged_samples(rival, found, one.name), one.onscreen_only ? 1000u : 5000u) << one.name;
+  }
+}
+
+// A1: where no model is found, nobody is judged by the scene's own fill rule or grid.
+TEST(Judge, WithoutAModelOnlyWhatHoldsUnderEachIsOwed) {
+  using namespace zoo;
+  for (const Choices& choices :
+       {control(), with({{kOwners, 1}}), with({{kOwners, 3}}), with({{kPlace, 1}}), with({{kRounding, 3}}),
+        with({{kBits, 3}, {kRounding, 5}}), with({{kFormat, 3}, {kClear, 1}}), with({{kCode, 1}, {kBits, 0}})}) {
+    Right rival(choices);
+    Inference nothing;
+    nothing.model = least_known_model();
+    nothing.model.format = oracle::DepthFormat::unorm16;
+    nothing.model.clear = 1;
+    EXPECT_GT(judged_samples(rival, nothing, right_text(choices)), 1000u);
+  }
+}
+
+// What the judge says can be red: a picture that is right under one model is wrong under another.
+TEST(Judge, AnotherModelIsAccused) {
+  Right rival(with({{zoo::kPlace, 1}}));
+  Inference found = infer(rival, adapters::oracle_expected(), std::nullopt);
+  found.model.x.place = found.model.y.place = 0.5;
+  Terms terms;
+  terms.model = found.model;
+  terms.known = true;
+  corpus::Scene scene = flat_scene(8, 8, {{{{1, 1}, {5, 1}, {1, 5}}}});
+  corpus::Frame frame(scene, rival.outputs());
+  const Judgement judgement =
+      judge_image(adapters::oracle_expected(), terms, {8, 8, 1, DepthTest::less, false, frame.draws()},
+                  rival.draw(scene, rival.outputs()), {}, {});
+  EXPECT_GT(judgement.differences, 0u);
+  EXPECT_NE(judgement.finding.find("at pixel"), std::string::npos) << judgement.finding;
+}
+
+TEST(Judge, RightRasterizersCoverEachPairOfChoices) {
+  const std::vector<Choices>& all = zoo::right_rasterizers();
+  EXPECT_GE(all.size(), 60u);
+  for (std::size_t a = 0; a < zoo::kNumberOfChoices; ++a) {
+    for (std::size_t b = a + 1; b < zoo::kNumberOfChoices; ++b) {
+      for (int i = 0; i < zoo::kChoices[a]; ++i) {
+        for (int j = 0; j < zoo::kChoices[b]; ++j) {
+          EXPECT_TRUE(std::any_of(all.begin(), all.end(), [&](const Choices& c) { return c[a] == i && c[b] == j; }));
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace surefill::judge

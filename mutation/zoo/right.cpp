@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "mutation/zoo/right.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <utility>
+
+namespace surefill::zoo {
+
+namespace {
+
+// --- the pairwise array
+
+using Pair = std::pair<std::pair<std::size_t, int>, std::pair<std::size_t, int>>;
+
+// Greedy: each row takes, choice by choice, what covers most pairs that are left.
+std::vector<Choices> pairwise() {
+  std::set<Pair> left;
+  for (std::size_t a = 0; a < kNumberOfChoices; ++a) {
+    for (std::size_t b = a + 1; b < kNumberOfChoices; ++b) {
+      for (int i = 0; i < kChoices[a]; ++i) {
+        for (int j = 0; j < kChoices[b]; ++j) left.insert({{a, i}, {b, j}});
+      }
+    }
+  }
+  const auto covers = [&left](const Choices& row, std::size_t column, int value, std::size_t known) {
+    int pairs = 0;
+    for (std::size_t other = 0; other < kNumberOfChoices; ++other) {
+      if (other == column || (other > column ? other >= known : false)) continue;
+      if (row[other] < 0) continue;
+      const std::pair<std::size_t, int> p{column, value}, q{other, row[other]};
+      if (left.count(column < other ? Pair{p, q} : Pair{q, p}) != 0) ++pairs;
+    }
+    return pairs;
+  };
+  std::vector<Choices> rows;
+  while (!left.empty() || rows.size() < 64) {
+    Choices row;
+    row.fill(-1);
+    // Begin with a pair that is left, and go on from the column after it, all around.
+    std::size_t first = 0;
+    if (!left.empty()) {
+      const Pair pair = *left.begin();
+      row[pair.first.first] = pair.first.second;
+      row[pair.second.first] = pair.second.second;
+      first = pair.second.first;
+    }
+    for (std::size_t n = 0; n < kNumberOfChoices; ++n) {
+      const std::size_t column = (first + n) % kNumberOfChoices;
+      if (row[column] >= 0) continue;
+      int best = 0, most = -1;
+      for (int k = 0; k < kChoices[column]; ++k) {
+        const int value = (k + static_cast<int>(rows.size() + column)) % kChoices[column];
+        const int pairs = covers(row, column, value, kNumberOfChoices);
+        if (pairs > most) best = value, most = pairs;
+      }
+      row[column] = best;
+    }
+    for (std::size_t a = 0; a < kNumberOfChoices; ++a) {
+      for (std::size_t b = a + 1; b < kNumberOfChoices; ++b) left.erase({{a, row[a]}, {b, row[b]}});
+    }
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+// --- projection
+
+// R5's rounding, in a number of the code base.
+template <typename Number>
+Number rounded(Number value, int rounding) {
+  const Number half = Number(1) / 2;
+  switch (rounding) {
+    case 0:
+      return std::floor(value + half);
+    case 1:
+      return std::nearbyint(value);
+    case 2:
+      return value < 0 ? -std::floor(-value + half) : std::floor(value + half);
+    case 3:
+      return std::floor(value);
+    case 4:
+      return std::trunc(value);
+    default:
+      return std::ceil(value);
+  }
+}
+
+constexpr std::array<int, 4> kGridBits{-1, 8, 4, 2};
+constexpr double kFarthest = 1 << 14;
+
+// A position on one axis, in pixels. In integers without a grid it is one of 16 bits.
+template <typename Number>
+double projected(const Choices& choices, int axis, float numerator, float w, int length) {
+  Number q = static_cast<Number>(numerator) / static_cast<Number>(w);
+  if (choices[kViewport] == 1) q = q * static_cast<Number>(length - 1) / static_cast<Number>(length);
+  if (choices[kViewport] == 2) q += Number(1) / 4;
+  if (choices[kBlur] == 1) q = static_cast<Number>(static_cast<float>(q + Number(128)) - 128.0f);
+  int bits = axis == 1 && choices[kOtherBits] == 1 ? 6 : kGridBits[static_cast<std::size_t>(choices[kBits])];
+  if (bits < 0 && choices[kCode] == 0) bits = 16;
+  if (bits < 0) return static_cast<double>(q);
+  const auto scale = static_cast<Number>(1 << bits);
+  return static_cast<double>(rounded(q * scale, choices[kRounding]) / scale);
+}
+
+double position(const Choices& choices, int axis, float numerator, float w, int length) {
+  return choices[kCode] == 1 ? projected<float>(choices, axis, numerator, w, length)
+                             : projected<double>(choices, axis, numerator, w, length);
+}
+
+// --- edges
+
+struct Corner {
+  double x, y;
+};
+
+// Positions are float32, or have 16 bits and less than 15 before them, or are doubles that no sample lies on: in long
+// double the sign is right. The code base in integers has units of 1/(12 65536) pixel, which sevens of twelfths are, too.
+int side_of(const Choices& choices, const Corner& p, const Corner& q, const Corner& s) {
+  if (choices[kCode] == 0) {
+    constexpr double kUnits = 12.0 * 65536;
+    const auto whole = [](double v) { return static_cast<__int128>(std::llround(v * kUnits)); };
+    const __int128 e =
+        (whole(q.x) - whole(p.x)) * (whole(s.y) - whole(p.y)) - (whole(q.y) - whole(p.y)) * (whole(s.x) - whole(p.x));
+    return e > 0 ? 1 : e < 0 ? -1 : 0;
+  }
+  // From the same end whichever triangle asks, so that neighbours round alike.
+  const bool turn = std::pair(q.x, q.y) < std::pair(p.x, p.y);
+  const Corner &a = turn ? q : p, &b = turn ? p : q;
+  const long double ax = a.x, ay = a.y;
+  const long double e = (b.x - ax) * (s.y - ay) - (b.y - ay) * (s.x - ax);
+  const int sign = e > 0 ? 1 : e < 0 ? -1 : 0;
+  return turn ? -sign : sign;
+}
+
+// Does the edge from p to q, the inside to its right, own the samples on it?
+bool owns(const Choices& choices, const Corner& p, const Corner& q, bool front, int edge) {
+  const double dx = q.x - p.x, dy = q.y - p.y;
+  const bool top_left = dy < 0 || (dy == 0 && dx > 0);
+  switch (choices[kOwners]) {
+    case 0:
+      return top_left;
+    case 1:
+      return !top_left;
+    case 2:
+      return dx > 0 || (dx == 0 && dy < 0);  // southwards: the top ones, and the left of upright ones
+    case 3:
+      return true;
+    case 4:
+      return false;
+    case 5:
+      return top_left || dy == 0;
+    case 6:
+      return front == top_left;
+    default:
+      return edge == 0;
+  }
+}
+
+double stored(const Choices& choices, double z) {
+  if (choices[kRange] == 1) z = (static_cast<float>(2 * z - 1) + 1.0f) * 0.5f;
+  switch (choices[kFormat]) {
+    case 0:
+      return static_cast<float>(z);
+    case 1:
+      return z;
+    case 2:
+      return std::floor(z * 16777215.0 + 0.5) / 16777215.0;
+    default:
+      return std::floor(z * 65535.0 + 0.5) / 65535.0;
+  }
+}
+
+struct Plane {
+  double x, y, one;
+};
+
+Plane plane_of(const std::array<std::array<double, 3>, 3>& v) {
+  const double bx = v[1][0] - v[0][0], by = v[1][1] - v[0][1], bz = v[1][2] - v[0][2], cx = v[2][0] - v[0][0],
+               cy = v[2][1] - v[0][1], cz = v[2][2] - v[0][2], det = bx * cy - by * cx;
+  if (det == 0) return {0, 0, v[0][2]};
+  const Plane plane{(bz * cy - by * cz) / det, (bx * cz - bz * cx) / det, 0};
+  return {plane.x, plane.y, v[0][2] - plane.x * v[0][0] - plane.y * v[0][1]};
+}
+
+constexpr std::array<std::array<double, 2>, 4> kPlaces{{{0.5, 0.5}, {0, 0}, {0.25, 0.75}, {7.0 / 12, 7.0 / 12}}};
+
+}  // namespace
+
+const std::vector<Choices>& right_rasterizers() {
+  static const std::vector<Choices> all = pairwise();
+  return all;
+}
+
+std::string right_name(std::size_t number) {
+  return "right-" + std::to_string(number);
+}
+
+std::string right_text(const Choices& c) {
+  const auto word = [&c](Choice choice, std::initializer_list<const char*> words) {
+    return std::string(words.begin()[c[choice]]);
+  };
+  return word(kCode, {"integers", "float32", "double"}) + ", samples at " +
+         word(kPlace, {"(1/2, 1/2)", "(0, 0)", "(1/4, 3/4)", "(7/12, 7/12)"}) + ", grid " +
+         word(kBits, {"none", "8", "4", "2"}) + word(kOtherBits, {"", " and 6 in y"}) + " " +
+         word(kRounding, {"nearest-up", "nearest-even", "nearest-away", "floor", "truncate", "ceiling"}) + ", " +
+         word(kOwners, {"top-left", "bottom-right", "southwards", "closed", "open", "both own level edges", "by facing",
+                        "by order"}) +
+         word(kBlur, {"", ", blurred"}) + word(kViewport, {"", ", viewport a pixel less", ", moved by 1/4"}) +
+         ", depth " + word(kFormat, {"float32", "double", "24 bits", "16 bits"}) + word(kClip, {"", ", clipped"}) +
+         word(kRange, {"", ", from -1 to 1"}) + word(kClear, {"", ", cleared to 1"}) +
+         word(kTest, {", less", ", lequal"}) + word(kNear, {"", ", W above 1/64"}) +
+         word(kFacing, {"", ", culls back", ", culls front"}) +
+         word(kSlivers, {"", ", leaves out turned ones", ", leaves out small ones"});
+}
+
+bool draw_right(const Choices& choices, const surefill_adapter_scene& scene, const surefill_adapter_image& image) {
+  const int width = static_cast<int>(scene.width), height = static_cast<int>(scene.height);
+  const std::size_t total = std::size_t{scene.width} * scene.height;
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  std::vector<double> buffer(total, choices[kClear] == 1 ? 1 : kInfinity);
+  if (image.count) std::fill_n(image.count, total, 0u);
+  if (image.index) std::fill_n(image.index, total, SUREFILL_ADAPTER_EMPTY);
+  if (image.depth) std::fill_n(image.depth, total, std::numeric_limits<float>::infinity());
+  const auto& place = kPlaces[static_cast<std::size_t>(choices[kPlace])];
+  for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
+    const surefill_adapter_draw& draw = scene.draws[d];
+    for (std::uint32_t t = 0; t < draw.triangle_count; ++t) {
+      std::array<Corner, 3> c{};
+      std::array<std::array<double, 3>, 3> v{};
+      bool behind = false;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float* p = draw.pixel + 4 * std::size_t{draw.indices[3 * t + i]};
+        v[i] = {static_cast<double>(p[0]) / p[3], static_cast<double>(p[1]) / p[3], static_cast<double>(p[2]) / p[3]};
+        if (!(std::abs(v[i][0]) < kFarthest) || !(std::abs(v[i][1]) < kFarthest)) return false;
+        behind = behind || (choices[kNear] == 1 && p[3] < 1.0f / 64);
+        c[i] = {position(choices, 0, p[0], p[3], width), position(choices, 1, p[1], p[3], height)};
+      }
+      if (behind) continue;
+      const double before = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[1][1] - v[0][1]) * (v[2][0] - v[0][0]);
+      const int turn = side_of(choices, c[0], c[1], c[2]);
+      if (turn == 0) continue;
+      if (choices[kSlivers] == 1 && turn * before < 0) continue;
+      const double area = std::abs((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x));
+      if (choices[kSlivers] == 2 && area < 1.0 / 64) continue;
+      const bool front = turn > 0;
+      if (choices[kFacing] != 0 && front == (choices[kFacing] == 2)) continue;
+      if (!front) std::swap(c[1], c[2]);
+      // Depth is that of the triangle as it is seen: moved with the viewport.
+      std::array<std::array<double, 3>, 3> seen = v;
+      for (auto& corner : seen) {
+        if (choices[kViewport] == 1) corner[0] *= (width - 1.0) / width, corner[1] *= (height - 1.0) / height;
+        if (choices[kViewport] == 2) corner[0] += 0.25, corner[1] += 0.25;
+      }
+      const Plane plane = plane_of(seen);
+      const auto pixel = [](double at, int length) { return static_cast<int>(std::clamp(at, 0.0, 1.0 * length)); };
+      const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
+      const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
+      for (int y = pixel(top - 1, height); y < pixel(bottom + 2, height); ++y) {
+        for (int x = pixel(left - 1, width); x < pixel(right + 2, width); ++x) {
+          const Corner s{x + place[0], y + place[1]};
+          bool inside = true;
+          for (int i = 0; i < 3 && inside; ++i) {
+            const Corner &p = c[static_cast<std::size_t>(i)], &q = c[static_cast<std::size_t>((i + 1) % 3)];
+            const int side = side_of(choices, p, q, s);
+            inside = side > 0 || (side == 0 && owns(choices, p, q, front, i));
+          }
+          if (!inside) continue;
+          const double z = plane.x * s.x + plane.y * s.y + plane.one;
+          if (choices[kClip] == 1 && (z < 0 || z > 1)) continue;
+          const auto at = static_cast<std::size_t>(y) * scene.width + static_cast<std::size_t>(x);
+          if (image.count) ++image.count[at];
+          const double depth = stored(choices, z);
+          if (choices[kTest] == 0 ? !(depth < buffer[at]) : !(depth <= buffer[at])) continue;
+          buffer[at] = depth;
+          if (image.index) image.index[at] = draw.identifiers[t];
+          if (image.depth) image.depth[at] = static_cast<float>(depth);
+        }
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace surefill::zoo

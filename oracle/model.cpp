@@ -1,0 +1,509 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "oracle/model.hpp"
+
+#include <gmpxx.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "oracle/coverage.hpp"
+#include "oracle/exact.hpp"
+
+namespace surefill::oracle {
+
+namespace {
+
+using Rational = mpq_class;
+
+constexpr double kFarthest = 1 << 14;  // pixels: R7
+constexpr double kUnclear = 1.0 / 16;  // R9
+constexpr long double kThin = 0x1p-20L;
+
+Rational floor_of(const Rational& value) {
+  Integer result;
+  mpz_fdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), value.get_den_mpz_t());
+  return result;
+}
+
+// R5's integer k.
+Rational rounded(const Rational& value, Rounding rounding) {
+  const Rational below = floor_of(value), part = value - below, half(1, 2);
+  switch (rounding) {
+    case Rounding::floor:
+      return below;
+    case Rounding::ceiling:
+      return part == 0 ? below : below + 1;
+    case Rounding::truncate:
+      return value >= 0 || part == 0 ? below : below + 1;
+    default:
+      break;
+  }
+  if (part != half) return part < half ? below : below + 1;
+  const bool even = mpz_even_p(below.get_num_mpz_t()) != 0;
+  const bool down = rounding == Rounding::nearest_down || (rounding == Rounding::nearest_even && even) ||
+                    (rounding == Rounding::nearest_away && value < 0);
+  return down ? below : below + 1;
+}
+
+Rational snapped(const Rational& position, const AxisModel& axis) {
+  if (axis.bits < 0) return position;
+  const Rational offset(axis.grid_offset), step(std::ldexp(1.0, -axis.bits));
+  return offset + rounded((position - offset) / step, axis.rounding) * step;
+}
+
+// a + b, if that is a double (Knuth's TwoSum).
+bool add_exactly(double a, double b, double& sum) {
+  sum = a + b;
+  const double t = sum - a;
+  return (a - (sum - t)) + (b - t) == 0;
+}
+
+// The same as `snapped` in double, if nothing is rounded on the way.
+bool snapped_exactly(double position, const AxisModel& axis, double& result) {
+  result = position;
+  if (axis.bits < 0) return true;
+  double scaled = 0;
+  if (!add_exactly(position, -axis.grid_offset, scaled)) return false;
+  scaled = std::ldexp(scaled, axis.bits);
+  if (scaled != 0 && std::abs(scaled) < 0x1p-900) return false;
+  const double below = std::floor(scaled);
+  double part = 0;
+  if (!add_exactly(scaled, -below, part)) return false;
+  double k = part == 0 ? below : below + 1;
+  switch (axis.rounding) {
+    case Rounding::floor:
+      k = below;
+      break;
+    case Rounding::ceiling:
+      break;
+    case Rounding::truncate:
+      if (scaled >= 0) k = below;
+      break;
+    default: {
+      const bool down = axis.rounding == Rounding::nearest_down ||
+                        (axis.rounding == Rounding::nearest_even && std::fmod(below, 2) == 0) ||
+                        (axis.rounding == Rounding::nearest_away && scaled < 0);
+      if (part < 0.5 || (part == 0.5 && down)) k = below;
+    }
+  }
+  return add_exactly(axis.grid_offset, std::ldexp(k, -axis.bits), result);
+}
+
+// All positions that a vertex may come to, on one axis: R3 to R5.
+struct Interval {
+  double near_low = 0, near_high = 0;  // the ends, rounded
+  bool exact = false;                  // and not rounded; else they are here:
+  Rational low, high;
+  bool point = true;
+  bool is_point() const { return point; }
+};
+
+// False beyond 2^14 pixels.
+bool place_vertex(const AxisModel& axis, int length, float numerator, float w, Interval& result) {
+  int exponent = 0;
+  const bool divided = std::frexp(w, &exponent) != 0.5f;
+  const double blur = divided ? std::max(axis.blur, axis.divided_blur) : axis.blur;
+  if (!divided && axis.lacks == 0) {
+    double q = 0, low = 0, high = 0;
+    if (add_exactly(static_cast<double>(numerator) / w, axis.moved, q) && add_exactly(q, -blur, low) &&
+        add_exactly(q, blur, high) && snapped_exactly(low, axis, result.near_low) &&
+        snapped_exactly(high, axis, result.near_high)) {
+      result.exact = true;
+      result.point = result.near_low == result.near_high;
+      return std::abs(q) <= kFarthest;
+    }
+  }
+  Rational q(numerator);
+  q /= Rational(w);
+  if (axis.lacks != 0) q *= (length - Rational(axis.lacks)) / length;
+  if (axis.moved != 0) q += Rational(axis.moved);
+  if (abs(q) > kFarthest) return false;
+  result.exact = false;
+  result.low = snapped(q - Rational(blur), axis);
+  result.high = blur == 0 ? result.low : snapped(q + Rational(blur), axis);
+  result.near_low = result.low.get_d();
+  result.near_high = result.high.get_d();
+  result.point = result.low == result.high;
+  return true;
+}
+
+struct Box {
+  Interval x, y;
+  bool is_point() const { return x.is_point() && y.is_point(); }
+};
+
+// R7's edge function: (q - p) x (s - p).
+template <typename Number>
+Number edge_function(const Number& px, const Number& py, const Number& qx, const Number& qy, const Number& sx,
+                     const Number& sy) {
+  return Number((qx - px) * (sy - py) - (qy - py) * (sx - px));
+}
+
+// The smallest and the largest value of a function that is linear in each coordinate, given at all corners.
+struct Signs {
+  bool positive = false, negative = false, zero = false;
+  void add(int sign) { (sign > 0 ? positive : sign < 0 ? negative : zero) = true; }
+  bool all_positive() const { return positive && !negative && !zero; }
+  bool all_negative() const { return negative && !positive && !zero; }
+  bool all_zero() const { return zero && !positive && !negative; }
+};
+
+Rational end_of(const Interval& interval, unsigned which) {
+  if (interval.exact) return Rational(which % 2 == 0 ? interval.near_low : interval.near_high);
+  return which % 2 == 0 ? interval.low : interval.high;
+}
+double near_end(const Interval& interval, unsigned which) {
+  return which % 2 == 0 ? interval.near_low : interval.near_high;
+}
+
+// Sample n of pixel (x, y), which is rarely wanted as more than a double.
+struct Sample {
+  int pixel_x, pixel_y;
+  Point moved;  // from the place, in 1/16 pixel: S4
+  double place_x, place_y;
+  double within_x, within_y;
+
+  bool is_point() const { return within_x == 0 && within_y == 0; }
+  double near_x() const { return pixel_x + moved.x / 16.0 + place_x; }
+  double near_y() const { return pixel_y + moved.y / 16.0 + place_y; }
+  // Corner n = 0..3 of the box that it lies in.
+  double near_x(unsigned n) const { return near_x() + (n % 2 == 0 ? -within_x : within_x); }
+  double near_y(unsigned n) const { return near_y() + (n / 2 == 0 ? -within_y : within_y); }
+  Rational x(unsigned n) const { return exact(moved.x, pixel_x, place_x, n % 2 == 0 ? -within_x : within_x); }
+  Rational y(unsigned n) const { return exact(moved.y, pixel_y, place_y, n / 2 == 0 ? -within_y : within_y); }
+
+ private:
+  static Rational exact(int sixteenths, int pixel, double place, double aside) {
+    Rational part(sixteenths, kUnits);
+    part.canonicalize();
+    return part + pixel + Rational(place) + Rational(aside);
+  }
+};
+
+// Beyond this distance from 0 the sign of an edge function in double is right: coordinates are below `size`.
+double certain_above(double size) {
+  return 0x1p-48 * (size + 1) * (size + 1);
+}
+
+Signs signs_of_edge(const Box& p, const Box& q, const Sample& s, double certain) {
+  Signs signs;
+  const unsigned corners = p.is_point() && q.is_point() ? 1 : 16, places = s.is_point() ? 1 : 4;
+  for (unsigned place = 0; place < places; ++place) {
+    for (unsigned n = 0; n < corners; ++n) {
+      const double value = edge_function(near_end(p.x, n), near_end(p.y, n >> 1), near_end(q.x, n >> 2),
+                                         near_end(q.y, n >> 3), s.near_x(place), s.near_y(place));
+      if (std::abs(value) > certain) {
+        signs.add(value > 0 ? 1 : -1);
+      } else {
+        signs.add(sgn(edge_function(end_of(p.x, n), end_of(p.y, n >> 1), end_of(q.x, n >> 2), end_of(q.y, n >> 3),
+                                    s.x(place), s.y(place))));
+      }
+    }
+  }
+  return signs;
+}
+
+Signs signs_of_area(const std::array<Box, 3>& t) {
+  Signs signs;
+  double size = 0;
+  for (const Box& box : t) {
+    for (const Interval* axis : {&box.x, &box.y}) {
+      size = std::max({size, std::abs(axis->near_low), std::abs(axis->near_high)});
+    }
+  }
+  const double certain = certain_above(size);
+  const bool points = t[0].is_point() && t[1].is_point() && t[2].is_point();
+  for (unsigned n = 0; n < (points ? 1u : 64u); ++n) {
+    const double value = edge_function(near_end(t[0].x, n), near_end(t[0].y, n >> 1), near_end(t[1].x, n >> 2),
+                                       near_end(t[1].y, n >> 3), near_end(t[2].x, n >> 4), near_end(t[2].y, n >> 5));
+    if (std::abs(value) > certain) {
+      signs.add(value > 0 ? 1 : -1);
+    } else {
+      signs.add(sgn(edge_function(end_of(t[0].x, n), end_of(t[0].y, n >> 1), end_of(t[1].x, n >> 2),
+                                  end_of(t[1].y, n >> 3), end_of(t[2].x, n >> 4), end_of(t[2].y, n >> 5))));
+    }
+  }
+  return signs;
+}
+
+// The side that the edge from p to q is on, the inside being where E > 0. Both are points.
+Side side_of(const Box& p, const Box& q) {
+  const int inside_x = sgn(Rational(end_of(p.y, 0) - end_of(q.y, 0)));
+  const int inside_y = sgn(Rational(end_of(q.x, 0) - end_of(p.x, 0)));
+  if (inside_y == 0) return inside_x > 0 ? Side::left : Side::right;
+  if (inside_x == 0) return inside_y > 0 ? Side::top : Side::bottom;
+  if (inside_y > 0) return inside_x > 0 ? Side::top_left : Side::top_right;
+  return inside_x > 0 ? Side::bottom_left : Side::bottom_right;
+}
+
+bool all_finite(const std::array<Vertex, 3>& triangle) {
+  return std::all_of(triangle.begin(), triangle.end(), [](const Vertex& v) {
+    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+  });
+}
+
+int sign_of_d(const std::array<Vertex, 3>& t) {
+  const auto position = [](const Vertex& v) { return Position{v.x, v.y, v.w}; };
+  return sign_of_determinant(position(t[0]), position(t[1]), position(t[2]));
+}
+
+// What R7 to R10 make of a triangle before any sample is looked at.
+struct Placed {
+  enum class Kind { boxes, clipped, open, nothing } kind = Kind::boxes;
+  std::array<Box, 3> boxes;  // of `boxes`, positive; of `open`
+  bool front = true;
+};
+
+Placed place_triangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t) {
+  Placed placed;
+  const int d = sign_of_d(t);
+  placed.front = d > 0;
+  const auto drawn = [&](const Vertex& v) { return v.w > 0 && v.w >= model.least_w && v.w <= model.most_w; };
+  bool near = std::all_of(t.begin(), t.end(), [](const Vertex& v) { return v.w > 0; });
+  for (std::size_t i = 0; i < 3 && near; ++i) {
+    near = place_vertex(model.x, width, t[i].x, t[i].w, placed.boxes[i].x) &&
+           place_vertex(model.y, height, t[i].y, t[i].w, placed.boxes[i].y);
+  }
+  const bool culled = model.culled != Cull::none && (model.culled == Cull::front) == placed.front;
+  if (!near) {
+    placed.kind = d != 0 && culled ? Placed::Kind::nothing : Placed::Kind::clipped;
+    return placed;
+  }
+  const Signs area = signs_of_area(placed.boxes);
+  const bool kept = d == 0 ? area.all_zero() : d > 0 ? area.all_positive() : area.all_negative();
+  const bool points = std::all_of(placed.boxes.begin(), placed.boxes.end(), [](const Box& b) { return b.is_point(); });
+  if (kept && d == 0) {
+    placed.kind = Placed::Kind::nothing;
+  } else if (kept && culled) {
+    placed.kind = Placed::Kind::nothing;
+  } else if (!std::all_of(t.begin(), t.end(), drawn)) {
+    placed.kind = Placed::Kind::open;
+  } else if (kept) {
+    const double size =
+        std::abs(edge_function(placed.boxes[0].x.near_low, placed.boxes[0].y.near_low, placed.boxes[1].x.near_low,
+                               placed.boxes[1].y.near_low, placed.boxes[2].x.near_low, placed.boxes[2].y.near_low));
+    if (model.least_area > 0 && size < 2 * model.least_area) placed.kind = Placed::Kind::open;
+  } else if (model.culled == Cull::none && model.turned == Turned::as_grid && points) {
+    placed.kind = area.all_zero() ? Placed::Kind::nothing : Placed::Kind::boxes;
+    placed.front = area.all_positive();
+  } else if (model.culled == Cull::none && model.turned == Turned::nothing && d != 0 &&
+             (d > 0 ? !area.positive : !area.negative)) {
+    placed.kind = Placed::Kind::nothing;
+  } else {
+    placed.kind = Placed::Kind::open;
+  }
+  if (placed.kind == Placed::Kind::boxes && !placed.front) std::swap(placed.boxes[1], placed.boxes[2]);
+  return placed;
+}
+
+// R7 at one sample.
+Cover answer_at(const Model& model, const Placed& placed, const Sample& sample, double certain) {
+  const Owners& owners = placed.front ? model.front : model.back;
+  bool open = false;
+  int on_edges = 0;
+  bool refused = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Box &p = placed.boxes[i], &q = placed.boxes[(i + 1) % 3];
+    const Signs signs = signs_of_edge(p, q, sample, certain);
+    if (signs.all_positive()) continue;
+    if (signs.all_negative()) return Cover::no;
+    if (!signs.all_zero() || !p.is_point() || !q.is_point() || !sample.is_point()) {
+      open = true;
+      continue;
+    }
+    ++on_edges;
+    const std::uint8_t side = bit(side_of(p, q));
+    if (owners.open & side) {
+      open = true;
+    } else if (!(owners.owned & side)) {
+      refused = true;
+    }
+  }
+  if (on_edges == 2 && model.vertices != AtVertices::as_edges) {
+    return model.vertices == AtVertices::covered       ? Cover::yes
+           : model.vertices == AtVertices::not_covered ? Cover::no
+                                                       : Cover::open;
+  }
+  if (refused) return Cover::no;
+  return open ? Cover::open : Cover::yes;
+}
+
+// R9: near its edges all is open.
+class ClippedTriangle {
+ public:
+  ClippedTriangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t) {
+    const auto step = [](const AxisModel& axis) {
+      return axis.place_within + 2 * std::max(axis.blur, axis.divided_blur) +
+             (axis.bits < 0 ? 0 : std::ldexp(1.0, -axis.bits));
+    };
+    distance_ = kUnclear + std::max(step(model.x), step(model.y));
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      const AxisModel& m = axis == 0 ? model.x : model.y;
+      const double length = axis == 0 ? width : height;
+      stretch_[axis] = length / (length - m.lacks);
+      moved_[axis] = m.moved;
+    }
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Vertex &p = t[(i + 1) % 3], &q = t[(i + 2) % 3];
+      const std::array<long double, 3> m{p.x, p.y, p.w}, n{q.x, q.y, q.w};
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t j = (c + 1) % 3, k = (c + 2) % 3;
+        edge_[i][c] = m[j] * n[k] - m[k] * n[j];
+        size_[i][c] = std::abs(m[j] * n[k]) + std::abs(m[k] * n[j]);
+      }
+    }
+    sign_ = sign_of_d(t);
+    const std::array<long double, 3> m{t[0].x, t[0].y, t[0].w};
+    long double d = 0, terms = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      d += m[c] * edge_[0][c];
+      terms += std::abs(m[c]) * size_[0][c];
+    }
+    thin_ = std::abs(d) <= kThin * terms;
+  }
+
+  Cover at(double sx, double sy) const {
+    if (thin_) return Cover::open;
+    bool inside = true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      bool positive = true, negative = true;
+      for (unsigned n = 0; n < 4; ++n) {
+        const long double x = (sx + (n % 2 == 0 ? -distance_ : distance_) - moved_[0]) * stretch_[0];
+        const long double y = (sy + (n / 2 == 0 ? -distance_ : distance_) - moved_[1]) * stretch_[1];
+        const long double value = static_cast<long double>(sign_) * (edge_[i][0] * x + edge_[i][1] * y + edge_[i][2]);
+        const long double error = 0x1p-44L * (size_[i][0] * std::abs(x) + size_[i][1] * std::abs(y) + size_[i][2]);
+        positive = positive && value > error;
+        negative = negative && value < -error;
+      }
+      if (negative) return Cover::no;
+      inside = inside && positive;
+    }
+    return inside ? Cover::yes : Cover::open;
+  }
+
+ private:
+  std::array<std::array<long double, 3>, 3> edge_{}, size_{};
+  std::array<double, 2> stretch_{}, moved_{};
+  double distance_ = 0;
+  int sign_ = 0;
+  bool thin_ = false;
+};
+
+struct Corner {
+  double x, y;
+};
+
+double turn(const Corner& a, const Corner& b, const Corner& c) {
+  return edge_function(a.x, a.y, b.x, b.y, c.x, c.y);
+}
+
+// R8: the convex hull of the boxes, counter to E's sense or not; a hair is added around it.
+std::vector<Corner> hull_of(const std::array<Box, 3>& boxes) {
+  std::vector<Corner> points;
+  for (const Box& box : boxes) {
+    for (const double x : {box.x.near_low, box.x.near_high}) {
+      for (const double y : {box.y.near_low, box.y.near_high}) points.push_back({x, y});
+    }
+  }
+  std::sort(points.begin(), points.end(),
+            [](const Corner& a, const Corner& b) { return a.x != b.x ? a.x < b.x : a.y < b.y; });
+  std::vector<Corner> hull;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t begin = hull.size();
+    for (const Corner& p : points) {
+      while (hull.size() >= begin + 2 && turn(hull[hull.size() - 2], hull.back(), p) <= 0) hull.pop_back();
+      hull.push_back(p);
+    }
+    hull.pop_back();
+    std::reverse(points.begin(), points.end());
+  }
+  return hull;
+}
+
+bool in_hull(const std::vector<Corner>& hull, const Corner& s) {
+  constexpr double kHair = 0x1p-30;
+  if (hull.empty()) return false;
+  double x0 = hull[0].x, x1 = x0, y0 = hull[0].y, y1 = y0;
+  for (std::size_t i = 0; i < hull.size(); ++i) {
+    const Corner &a = hull[i], &b = hull[(i + 1) % hull.size()];
+    const double length = std::abs(b.x - a.x) + std::abs(b.y - a.y);
+    if (turn(a, b, s) < -kHair * (1 + length)) return false;
+    x0 = std::min(x0, a.x), x1 = std::max(x1, a.x), y0 = std::min(y0, a.y), y1 = std::max(y1, a.y);
+  }
+  return s.x >= x0 - kHair && s.x <= x1 + kHair && s.y >= y0 - kHair && s.y <= y1 + kHair;
+}
+
+// For a sample that is not known to the point, the hull's box widened by how well it is.
+bool near_hull(const std::vector<Corner>& hull, const Sample& sample) {
+  const auto [left, right] = std::minmax_element(hull.begin(), hull.end(), [](auto& a, auto& b) { return a.x < b.x; });
+  const auto [top, bottom] = std::minmax_element(hull.begin(), hull.end(), [](auto& a, auto& b) { return a.y < b.y; });
+  return sample.near_x() >= left->x - sample.within_x && sample.near_x() <= right->x + sample.within_x &&
+         sample.near_y() >= top->y - sample.within_y && sample.near_y() <= bottom->y + sample.within_y;
+}
+
+}  // namespace
+
+std::vector<Cover> cover(const Model& model, int width, int height, int samples,
+                         const std::array<Vertex, 3>& triangle) {
+  const StandardFloats standard;
+  const auto pattern = static_cast<std::size_t>(samples);
+  std::vector<Cover> answers(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * pattern, Cover::no);
+  if (!all_finite(triangle)) return answers;
+  const Placed placed = place_triangle(model, width, height, triangle);
+  if (placed.kind == Placed::Kind::nothing) return answers;
+  // Only what lies in the box around all positions is looked at; of a clipped triangle, everything.
+  double x0 = 0, y0 = 0, x1 = width, y1 = height, size = std::max(width, height);
+  if (placed.kind != Placed::Kind::clipped) {
+    x0 = y0 = INFINITY, x1 = y1 = -INFINITY;
+    for (const Box& box : placed.boxes) {
+      x0 = std::min(x0, box.x.near_low), x1 = std::max(x1, box.x.near_high);
+      y0 = std::min(y0, box.y.near_low), y1 = std::max(y1, box.y.near_high);
+    }
+    size = std::max({size, std::abs(x0), std::abs(x1), std::abs(y0), std::abs(y1)}) + 2;
+    x0 -= 2, y0 -= 2, x1 += 2, y1 += 2;
+  }
+  const auto pixel = [](double at, int length) {
+    return static_cast<int>(std::floor(std::clamp(at, 0.0, static_cast<double>(length))));
+  };
+  std::optional<ClippedTriangle> clipped;
+  if (placed.kind == Placed::Kind::clipped) clipped.emplace(model, width, height, triangle);
+  const std::vector<Corner> hull = placed.kind == Placed::Kind::open ? hull_of(placed.boxes) : std::vector<Corner>();
+  const double certain = certain_above(size);
+  for (int y = pixel(y0, height); y < pixel(y1 + 1, height); ++y) {
+    for (int x = pixel(x0, width); x < pixel(x1 + 1, width); ++x) {
+      for (int n = 0; n < samples; ++n) {
+        const Point location = sample_point(samples, n, 0, 0);
+        const Point moved{location.x - kUnits / 2, location.y - kUnits / 2};
+        const Sample sample{x, y, moved, model.x.place, model.y.place, model.x.place_within, model.y.place_within};
+        Cover& answer =
+            answers[(static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x)) *
+                        pattern +
+                    static_cast<std::size_t>(n)];
+        if (clipped) {
+          answer = clipped->at(sample.near_x(), sample.near_y());
+          continue;
+        }
+        if (placed.kind == Placed::Kind::open) {
+          const bool in =
+              in_hull(hull, {sample.near_x(), sample.near_y()}) || (!sample.is_point() && near_hull(hull, sample));
+          answer = in ? Cover::open : Cover::no;
+          continue;
+        }
+        answer = answer_at(model, placed, sample, certain);
+      }
+    }
+  }
+  return answers;
+}
+
+bool may_turn(const Model& model, int width, int height, const std::array<Vertex, 3>& triangle) {
+  const StandardFloats standard;
+  if (!all_finite(triangle)) return true;
+  Model seen = model;
+  seen.culled = Cull::none;
+  seen.turned = Turned::open;
+  const Placed placed = place_triangle(seen, width, height, triangle);
+  return placed.kind == Placed::Kind::clipped || placed.kind == Placed::Kind::open;
+}
+
+}  // namespace surefill::oracle

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What somebody else's rasterizer does, as far as it is known, and which samples a triangle covers under it: section 11
+// of docs/semantics.md (R1 to R10). Plain data, and one function over it; of the engine, the public types alone.
+#ifndef SUREFILL_ORACLE_MODEL_HPP
+#define SUREFILL_ORACLE_MODEL_HPP
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <vector>
+
+#include "surefill/surefill.hpp"
+
+namespace surefill::oracle {
+
+// R5's roundings.
+enum class Rounding : std::uint8_t {
+  nearest_even,
+  nearest_up,
+  nearest_down,
+  nearest_away,
+  truncate,
+  floor,
+  ceiling,
+};
+
+// R2 to R5 on one axis. All numbers are pixels, and meant as the real numbers that they are.
+struct AxisModel {
+  double place = 0.5;       // of the sample in its pixel
+  double place_within = 0;  // and how well that is known
+  double lacks = 0;         // pixels that the viewport lacks, of the target's
+  double moved = 0;
+  double blur = 0;
+  double divided_blur = 0;  // instead, where it is more and W is no power of two
+  int bits = -1;            // of the grid; -1: none
+  Rounding rounding = Rounding::nearest_even;
+  double grid_offset = 0;
+
+  friend bool operator==(const AxisModel&, const AxisModel&) = default;
+};
+
+// R6: the sides of a triangle that an edge can be on, and who owns the samples on it, a bit a side.
+enum class Side : std::uint8_t { left, right, top, bottom, top_left, top_right, bottom_left, bottom_right };
+inline constexpr std::uint8_t bit(Side side) {
+  return static_cast<std::uint8_t>(1u << static_cast<unsigned>(side));
+}
+struct Owners {
+  std::uint8_t owned = 0;
+  std::uint8_t open = 0;  // these are not known, whatever `owned` says
+
+  friend bool operator==(const Owners&, const Owners&) = default;
+};
+
+// Those of C3's eight, closed and open.
+inline Owners owners_of(FillRule rule) {
+  const auto sides = [](Side a, Side b, Side c, Side d) {
+    return Owners{static_cast<std::uint8_t>(bit(a) | bit(b) | bit(c) | bit(d)), 0};
+  };
+  switch (rule) {
+    case FillRule::top_left:
+      return sides(Side::left, Side::top_left, Side::bottom_left, Side::top);
+    case FillRule::top_right:
+      return sides(Side::right, Side::top_right, Side::bottom_right, Side::top);
+    case FillRule::bottom_left:
+      return sides(Side::left, Side::top_left, Side::bottom_left, Side::bottom);
+    case FillRule::bottom_right:
+      return sides(Side::right, Side::top_right, Side::bottom_right, Side::bottom);
+    case FillRule::southwards:
+      return sides(Side::top, Side::top_left, Side::top_right, Side::left);
+    case FillRule::southwards_west:
+      return sides(Side::top, Side::top_left, Side::top_right, Side::right);
+    case FillRule::northwards:
+      return sides(Side::bottom, Side::bottom_left, Side::bottom_right, Side::left);
+    case FillRule::northwards_west:
+      return sides(Side::bottom, Side::bottom_left, Side::bottom_right, Side::right);
+    case FillRule::closed:
+      return {0xFF, 0};
+    case FillRule::open:
+      break;
+  }
+  return {0, 0};
+}
+
+enum class AtVertices : std::uint8_t { as_edges, covered, not_covered, open };  // R6
+enum class Turned : std::uint8_t { open, as_grid, nothing };                    // R8
+enum class DepthFormat : std::uint8_t { float32, float64, unorm24, unorm16 };   // R11
+
+struct Model {
+  AxisModel x, y;
+  Owners front = owners_of(FillRule::top_left), back = front;
+  AtVertices vertices = AtVertices::as_edges;
+  Turned turned = Turned::open;
+  double least_area = 0;  // twice the area in pixels: R8
+  double least_w = 0, most_w = std::numeric_limits<double>::infinity();
+  Cull culled = Cull::none;                      // always: R10
+  std::optional<std::array<double, 2>> clipped;  // to this depth, always: R10
+  // Depth: R11, R12.
+  DepthFormat format = DepthFormat::float32;
+  bool minus_one_to_one = false;
+  bool later_wins = false;  // LEQUAL, GEQUAL
+  float clear = std::numeric_limits<float>::infinity();
+  double distance = 0x1p-4;  // p
+
+  friend bool operator==(const Model&, const Model&) = default;
+};
+
+// R6. The fill rule that both facings go by, where it is one of the eight and vertices are not overruled.
+inline std::optional<FillRule> watertight_rule(const Model& model) {
+  if (!(model.front == model.back) || model.vertices != AtVertices::as_edges || model.front.open != 0) {
+    return std::nullopt;
+  }
+  for (int rule = 0; rule < 8; ++rule) {
+    if (owners_of(static_cast<FillRule>(rule)) == model.front) return static_cast<FillRule>(rule);
+  }
+  return std::nullopt;
+}
+
+// R1.
+enum class Cover : std::uint8_t { no, yes, open };
+
+// The answer for each sample of a target of this size, sample n of pixel (x, y) being element (y width + x) samples + n.
+// A triangle with a NaN or an infinity covers nothing (B1). Depth has no part: `clipped` is the caller's.
+std::vector<Cover> cover(const Model& model, int width, int height, int samples, const std::array<Vertex, 3>& triangle);
+
+// R8: may snapping or blur turn the triangle over, or lay it flat? True, too, where R9 leaves it open.
+bool may_turn(const Model& model, int width, int height, const std::array<Vertex, 3>& triangle);
+
+}  // namespace surefill::oracle
+
+#endif  // SUREFILL_ORACLE_MODEL_HPP

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Models of others (section 11 of docs/semantics.md): the exact model and those of section 6 against the oracle, every
+// choice against pictures worked out by hand, and openness against the choices that it stands for.
+#include "oracle/model.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "oracle/oracle.hpp"
+#include "properties/generators/generators.hpp"
+
+namespace surefill::oracle {
+namespace {
+
+using properties::Random;
+using Triangle = std::array<Vertex, 3>;
+
+Triangle flat(float x0, float y0, float x1, float y1, float x2, float y2) {
+  return {{{x0, y0, 0, 1}, {x1, y1, 0, 1}, {x2, y2, 0, 1}}};
+}
+
+// A row of answers a line: '.' not covered, '#' covered, 'o' open.
+std::string picture(const Model& model, int width, int height, const Triangle& triangle) {
+  std::string text;
+  for (const Cover answer : cover(model, width, height, 1, triangle)) {
+    text += answer == Cover::no ? '.' : answer == Cover::yes ? '#' : 'o';
+    if ((text.size() + 1) % static_cast<std::size_t>(width + 1) == 0) text += '/';
+  }
+  return text;
+}
+
+std::vector<std::uint32_t> exact(const Triangle& triangle, int width, int height, int samples, FillRule rule,
+                                 const std::optional<Grid>& grid) {
+  const std::array<std::uint32_t, 3> indices{0, 1, 2};
+  Draw draw;
+  draw.vertices = triangle;
+  draw.indices = indices;
+  draw.fill_rule = rule;
+  draw.grid = grid;
+  std::vector<std::uint32_t> count(static_cast<std::size_t>(width * height * samples));
+  Target target;
+  target.width = width, target.height = height, target.samples = samples;
+  target.count = count;
+  oracle::render(target, std::span<const Draw>(&draw, 1), 1);
+  return count;
+}
+
+// Triangles that pass samples closely or exactly, W a power of two or any.
+Triangle hard_triangle(Random& random, int size) {
+  Triangle triangle{};
+  const int bits = random.between(0, 2) == 0 ? 1 : random.between(1, 12);
+  for (Vertex& v : triangle) {
+    const float w =
+        random.one_in(3) ? static_cast<float>(0.5 + 4 * random.unit()) : std::ldexp(1.0f, random.between(-9, 9));
+    const auto coordinate = [&] {
+      return std::ldexp(static_cast<float>(random.between(-(2 << bits), (size + 2) << bits)), -bits);
+    };
+    const float x = coordinate(), y = coordinate();
+    v = {x * w, y * w, w / 2, w};
+  }
+  return triangle;
+}
+
+TEST(Model, ExactOneIsTheOracle) {
+  Random random(1);
+  std::uint64_t samples = 0;
+  for (int n = 0; n < 3000; ++n) {
+    const Triangle triangle = hard_triangle(random, 6);
+    const auto rule = static_cast<FillRule>(random.below(10));
+    const int pattern = n % 5 == 0 ? 4 : 1;
+    Model model;
+    model.front = model.back = owners_of(rule);
+    const std::vector<Cover> answers = cover(model, 6, 6, pattern, triangle);
+    const std::vector<std::uint32_t> expected = exact(triangle, 6, 6, pattern, rule, std::nullopt);
+    for (std::size_t s = 0; s < answers.size(); ++s) {
+      ASSERT_EQ(answers[s], expected[s] != 0 ? Cover::yes : Cover::no) << "case " << n << " sample " << s;
+    }
+    samples += answers.size();
+  }
+  EXPECT_GT(samples, 100000u);
+}
+
+TEST(Model, GridsAreTheOracles) {
+  Random random(2);
+  for (int n = 0; n < 3000; ++n) {
+    const Triangle triangle = hard_triangle(random, 6);
+    const auto rule = static_cast<FillRule>(random.below(8));
+    const int bits = random.between(1, 12);
+    const Grid grid{bits, random.between(0, 15), random.between(0, 15), static_cast<GridRounding>(random.below(3))};
+    Model model;
+    model.front = model.back = owners_of(rule);
+    model.turned = Turned::as_grid;
+    model.x.bits = model.y.bits = bits;
+    model.x.rounding = model.y.rounding = grid.rounding == GridRounding::nearest_even ? Rounding::nearest_even
+                                          : grid.rounding == GridRounding::nearest_up ? Rounding::nearest_up
+                                                                                      : Rounding::truncate;
+    model.x.grid_offset = std::ldexp(grid.offset_x, -bits - 4);
+    model.y.grid_offset = std::ldexp(grid.offset_y, -bits - 4);
+    const std::vector<Cover> answers = cover(model, 6, 6, 1, triangle);
+    const std::vector<std::uint32_t> expected = exact(triangle, 6, 6, 1, rule, grid);
+    for (std::size_t s = 0; s < answers.size(); ++s) {
+      ASSERT_EQ(answers[s], expected[s] != 0 ? Cover::yes : Cover::no) << "case " << n << " sample " << s;
+    }
+  }
+}
+
+// What is not open is so for every choice: blurred by r, whatever lies within r of it, snapped or not, agrees.
+TEST(Model, BlurIsOpenOnlyWhereChoicesDiffer) {
+  Random random(3);
+  std::uint64_t open = 0, judged = 0;
+  for (int n = 0; n < 2000; ++n) {
+    const Triangle triangle = hard_triangle(random, 6);
+    Model sharp, blurred;
+    sharp.x.bits = sharp.y.bits = blurred.x.bits = blurred.y.bits = n % 3 == 0 ? -1 : random.between(1, 8);
+    sharp.turned = Turned::as_grid;
+    blurred.x.blur = blurred.y.blur = 0x1p-6;
+    const std::vector<Cover> allowed = cover(blurred, 6, 6, 1, triangle);
+    for (int choice = 0; choice < 4; ++choice) {
+      Triangle moved = triangle;
+      for (Vertex& v : moved) {
+        v.x += v.w * static_cast<float>(random.unit() - 0.5) * 0x1p-6f;
+        v.y += v.w * static_cast<float>(random.unit() - 0.5) * 0x1p-6f;
+      }
+      const std::vector<Cover> answers = cover(sharp, 6, 6, 1, moved);
+      for (std::size_t s = 0; s < answers.size(); ++s) {
+        ++(allowed[s] == Cover::open ? open : judged);
+        if (allowed[s] != Cover::open) {
+          ASSERT_EQ(answers[s], allowed[s]) << "case " << n << " sample " << s;
+        }
+      }
+    }
+  }
+  EXPECT_GT(open, 1000u);
+  EXPECT_GT(judged, 20 * open);
+}
+
+TEST(Model, ChoicesByHand) {
+  const Triangle half = flat(0.5f, 0.5f, 2.5f, 0.5f, 0.5f, 2.5f);  // all three edges pass samples
+  Model model;
+  EXPECT_EQ(picture(model, 3, 3, half), "##./#../.../");
+  model.front = owners_of(FillRule::closed);
+  EXPECT_EQ(picture(model, 3, 3, half), "###/##./#../");
+  model.front = owners_of(FillRule::open);
+  EXPECT_EQ(picture(model, 3, 3, half), ".../.../.../");
+  model.front.open = bit(Side::bottom_right);
+  model.front.owned = 0xFF;
+  EXPECT_EQ(picture(model, 3, 3, half), "##o/#o./o../");
+  model.vertices = AtVertices::covered;
+  EXPECT_EQ(picture(model, 3, 3, half), "###/#o./#../");
+  model = {};
+  model.back = owners_of(FillRule::bottom_right);
+  EXPECT_EQ(picture(model, 3, 3, {half[0], half[2], half[1]}), ".../.#./.../");  // a back face
+
+  // The sample at the pixel's corner, and to its right.
+  model = {};
+  model.x.place = model.y.place = 0;
+  EXPECT_EQ(picture(model, 4, 2, flat(0, 0, 2, 0, 0, 2)), "##../#.../");
+  model.x.place = 0.75;
+  EXPECT_EQ(picture(model, 4, 2, flat(0, 0, 2.5f, 0, 0, 2.5f)), "##../#.../");
+  // A viewport of 8 pixels less one: 4 goes to 3.5, whose sample the left edge owns. Moved by 1/4 it does not.
+  model = {};
+  model.x.lacks = 1;
+  EXPECT_EQ(picture(model, 8, 1, flat(4, -2, 12, -2, 4, 20)), "...#####/");
+  model.x.moved = 0.25;
+  EXPECT_EQ(picture(model, 8, 1, flat(4, -2, 12, -2, 4, 20)), "....####/");
+  // Whole pixels by floor, ceiling and towards zero: an edge at -0.5 and one at 2.5.
+  const Triangle wide = flat(-0.5f, -9, -0.5f, 9, 2.5f, 0);
+  model = {};
+  model.x.bits = 0;
+  model.x.rounding = Rounding::floor;
+  EXPECT_EQ(picture(model, 3, 1, wide), "##./");
+  model.x.rounding = Rounding::ceiling;
+  EXPECT_EQ(picture(model, 3, 1, wide), "###/");
+  // Culled always, and left out for its W.
+  model = {};
+  model.culled = Cull::front;
+  EXPECT_EQ(picture(model, 3, 3, half), ".../.../.../");
+  model.culled = Cull::back;
+  EXPECT_EQ(picture(model, 3, 3, half), "##./#../.../");
+  model.least_w = 2;
+  EXPECT_EQ(picture(model, 3, 3, half), "ooo/oo./o../");
+  // Behind the eye only what is far from every edge is certain.
+  model = {};
+  const Triangle behind{{{-8, -8, 0, 1}, {40, -8, 0, 1}, {0, 80, 0, -1}}};
+  const std::string answers = picture(model, 2, 2, behind);
+  EXPECT_NE(answers.find('#'), std::string::npos) << answers;
+}
+
+TEST(Model, RoundingsDifferAtTiesOnly) {
+  // An edge at 0.5 of a grid of whole pixels, and at -0.5 off the screen: seen through a slanted edge's other end.
+  const auto covers = [](Rounding rounding, float edge) {
+    Model model;
+    model.x.bits = 0;
+    model.x.rounding = rounding;
+    model.x.place = 0;  // the sample of pixel k is at k
+    std::string row = picture(model, 4, 1, flat(edge, -9, edge, 9, 8, 0));
+    return row.find('#');
+  };
+  EXPECT_EQ(covers(Rounding::nearest_even, 1.5f), 2u);
+  EXPECT_EQ(covers(Rounding::nearest_even, 0.5f), 0u);
+  EXPECT_EQ(covers(Rounding::nearest_up, 0.5f), 1u);
+  EXPECT_EQ(covers(Rounding::nearest_down, 1.5f), 1u);
+  EXPECT_EQ(covers(Rounding::nearest_away, 0.5f), 1u);
+  EXPECT_EQ(covers(Rounding::floor, 1.75f), 1u);
+  EXPECT_EQ(covers(Rounding::ceiling, 1.25f), 2u);
+  EXPECT_EQ(covers(Rounding::truncate, 1.75f), 1u);
+}
+
+TEST(Model, ARuleIsWatertightIfBothFacingsGoByIt) {
+  for (int rule = 0; rule < 8; ++rule) {
+    Model model;
+    model.front = model.back = owners_of(static_cast<FillRule>(rule));
+    EXPECT_EQ(watertight_rule(model), static_cast<FillRule>(rule));
+    model.back = owners_of(FillRule::closed);
+    EXPECT_EQ(watertight_rule(model), std::nullopt);
+  }
+}
+
+}  // namespace
+}  // namespace surefill::oracle

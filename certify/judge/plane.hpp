@@ -15,8 +15,9 @@
 
 namespace surefill::judge {
 
-// Relative error of an edge function in long double, with room to spare.
-inline constexpr long double kRoundings = 0x1p-55L;
+// Relative error of an edge function in long double, which is a double at least, with room to spare: 2^9 roundings.
+static_assert(std::numeric_limits<long double>::digits >= 53);
+inline constexpr long double kRoundings = std::numeric_limits<long double>::digits >= 64 ? 0x1p-55L : 0x1p-44L;
 
 struct Edges {
   std::array<std::array<long double, 3>, 3> e{}, magnitude{};

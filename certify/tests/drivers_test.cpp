@@ -71,12 +71,13 @@ class Drivers : public InFolder {
 
   // A page: `Driver: NAME` and `Options: OPTIONS` say what it is about. In blocks of ```console, each line after
   // `$ COMMAND` is in what the command prints ("..." stands for others, "(nowhere: TEXT)" for the absence of a text);
-  // in blocks of ```text, each line is in the record of the run at standard level beside the page.
+  // in blocks of ```text, each line is in the record of the run at standard level beside the page. `Suite: ` says that
+  // the page is of an older suite: then its commands are not run.
   void replay_page(const std::string& name) {
     const fs::path pages = SUREFILL_CERTIFICATES;
     std::istringstream page(contents(pages / (name + ".md")));
     const std::string record = contents(pages / (name + ".txt"));
-    std::string about, options, block;
+    std::string about, options, block, older;
     std::size_t commands = 0, quoted = 0;
     bool here = false;
     for (std::string line; std::getline(page, line);) {
@@ -86,10 +87,13 @@ class Drivers : public InFolder {
       }
       if (block.empty()) {
         if (line.rfind("Driver: `", 0) == 0) about = line.substr(9, line.rfind('`') - 9);
+        if (line.rfind("Suite: ", 0) == 0) older = line;
         if (line.rfind("Options: `", 0) == 0) options = line.substr(10, line.rfind('`') - 10);
       } else if (block == "text") {
         EXPECT_NE(record.find(line + "\n"), std::string::npos) << name << ".txt has no line: " << line;
         ++quoted;
+      } else if (block == "console" && !older.empty()) {
+        continue;
       } else if (block == "console" && line.rfind("$ surefill ", 0) == 0) {
         if (!here) {
           const std::string present = driver(options);
@@ -108,8 +112,9 @@ class Drivers : public InFolder {
         EXPECT_TRUE(says(line)) << name << ": expected the line\n" << line << "\nin\n" << out;
       }
     }
-    EXPECT_GT(commands, 5u) << "the page has no claims";
     EXPECT_GT(quoted, 5u) << "the page quotes no run";
+    if (!older.empty()) GTEST_SKIP() << name << ".md: " << older;
+    EXPECT_GT(commands, 5u) << "the page has no claims";
   }
 
   std::string out;

@@ -59,7 +59,7 @@ def rows(one, two):
                 for w in COLUMNS if f"{w}/{above}" in first and f"{w}/{below}" in second}
 
     def at_least(what, must, wanted, reached):
-        span = lambda limits: " ".join(f"{limits[w]:g}" for w in COLUMNS[:7] if w in limits)
+        span = lambda limits: " ".join(f"{limits[w]:g}" for w in COLUMNS[:7] if limits.get(w))
         return (what, span(must), span(wanted), {w: f"{r:.1f} x" for w, r in reached.items()},
                 {w: r >= must.get(w, 0) for w, r in reached.items()})
 
@@ -120,7 +120,7 @@ def sizes(one):
 
 def text_of(table, one, two, machine, counted):
     lines = [f"of {machine}; depth is clipped", "",
-             f"{'ratios of medians':60} {'must':22} {'wanted':24} " + " ".join(f"{w.replace('0000', '0k'):>10}" for w in COLUMNS)]
+             f"{'ratios of medians':60} {'must':22} {'wanted':24} " + " ".join(f"{w.replace('000000', 'M').replace('0000', '0k'):>10}" for w in COLUMNS)]
     for what, must, wanted, reached, holds in table:
         cells = [reached.get(w, "") + ("" if holds.get(w, True) else " -") for w in COLUMNS]
         lines.append(f"{what:60} {must:22} {wanted:24} " + " ".join(f"{cell:>10}" for cell in cells))

@@ -13,6 +13,8 @@ target_compile_options(surefill_flags INTERFACE
   "$<${surefill_gnu_like}:-Wall;-Wextra;-Wconversion;-Wsign-conversion;-Wshadow>")
 # GCC bug 105651: g++ 12 warns of overlapping memory in std::string concatenations that are right.
 target_compile_options(surefill_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,GNU>:-Wno-restrict>)
+# clang 19 reports, of our use of std::stable_sort, a deprecated function inside libstdc++ 12.
+target_compile_options(surefill_flags INTERFACE $<$<COMPILE_LANG_AND_ID:CXX,Clang>:-Wno-deprecated-declarations>)
 if(SUREFILL_WERROR)
   target_compile_options(surefill_flags INTERFACE -Werror)
 endif()

@@ -17,7 +17,8 @@ function(define_for)
   set_property(SOURCE ${arg_UNPARSED_ARGUMENTS} APPEND PROPERTY COMPILE_DEFINITIONS ${arg_DEFINE})
 endfunction()
 file(GLOB textbook_tests ${tests}/textbook/tests/*.cpp)
-define_for(${textbook_tests} ${tests}/corpus/tests/scene_test.cpp ${tests}/engine/tests/hashes_test.cpp
+define_for(${textbook_tests} ${tests}/corpus/tests/python_words_test.cpp ${tests}/corpus/tests/scene_test.cpp
+  ${tests}/engine/tests/hashes_test.cpp
   DEFINE SUREFILL_CORPUS="${PROJECT_SOURCE_DIR}/corpus")
 if(SUREFILL_SANITIZE)
   # Instrumented code runs ten to thirty times slower: every test, with a share of its random cases.

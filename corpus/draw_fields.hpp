@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The state of a draw as a table, a row a field: its word in scenes, its member, and the words or ranges of its values.
-// The scene reader and writer, reduction, equality and the fuzz decoder are made from it.
+// The scene reader and writer, reduction, equality, the fuzz decoder, messages to rivals (with the adapter's members in
+// certify/rivals/draw_words.hpp) and Python's words are made from it.
 #ifndef SUREFILL_CORPUS_DRAW_FIELDS_HPP
 #define SUREFILL_CORPUS_DRAW_FIELDS_HPP
 

@@ -5,6 +5,9 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <string>
+
+#include "certify/rivals/draw_words.hpp"
 
 namespace surefill::adapters {
 
@@ -178,8 +181,11 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
   constexpr std::uint32_t kTaken = SUREFILL_ADAPTER_FILL_RULES | SUREFILL_ADAPTER_GRIDS;  // or the model's
   const std::uint32_t missing = needed_features(target, draws) & ~info.features & ~kTaken;
   if (missing != 0) return kFeatureNames[std::countr_zero(missing)];
-  for (const Draw& draw : draws)  // version 1 of the adapter has no word for them
-    if (draw.fill_rule > FillRule::northwards_west) return "fill rules closed and open";
+  for (const Draw& draw : draws) {
+    if (const std::string_view field = field_without_word(draw.state()); !field.empty()) {
+      return std::string(field) + " of a value that version 1 of the adapter has no word for";
+    }
+  }
   if (exceeds(static_cast<std::size_t>(target.width), info.max_width) ||
       exceeds(static_cast<std::size_t>(target.height), info.max_height)) {
     return "targets of this size";
@@ -257,25 +263,7 @@ AdapterFrame::AdapterFrame(const Target& target, std::span<const Draw> draws, co
     to.viewport_near = viewport.near_depth;
     to.viewport_far = viewport.far_depth;
     to.viewport_depth_range = static_cast<std::uint32_t>(viewport.clip_depth);
-    to.fill_rule = static_cast<std::uint32_t>(from.fill_rule);
-    to.front_face = static_cast<std::uint32_t>(from.front_face);
-    to.cull = static_cast<std::uint32_t>(from.cull);
-    to.depth_mode = static_cast<std::uint32_t>(from.depth_mode);
-    to.depth_write = from.depth_write ? 1 : 0;
-    to.conservative = static_cast<std::uint32_t>(from.conservative);
-    if (from.scissor) {
-      to.has_scissor = 1;
-      const Scissor& s = *from.scissor;
-      const std::int32_t sides[4] = {s.x0, s.y0, s.x1, s.y1};
-      std::copy(std::begin(sides), std::end(sides), std::begin(to.scissor));
-    }
-    if (from.grid) {
-      to.has_grid = 1;
-      to.grid_bits = static_cast<std::uint32_t>(from.grid->bits);
-      to.grid_rounding = static_cast<std::uint32_t>(from.grid->rounding);
-      to.grid_offset_x = static_cast<std::uint32_t>(from.grid->offset_x);
-      to.grid_offset_y = static_cast<std::uint32_t>(from.grid->offset_y);
-    }
+    set_words(from.state(), to);
   }
   scene_.width = static_cast<std::uint32_t>(target.width);
   scene_.height = static_cast<std::uint32_t>(target.height);

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "certify/adapter.h"
+#include "certify/rivals/draw_words.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::adapters {
@@ -82,17 +83,7 @@ class PluginFrame {
       offset += a.components;
     }
     draw.attributes = storage.attributes;
-    draw.fill_rule = static_cast<FillRule>(from.fill_rule);
-    draw.front_face = static_cast<FrontFace>(from.front_face);
-    draw.cull = static_cast<Cull>(from.cull);
-    draw.depth_mode = static_cast<DepthMode>(from.depth_mode);
-    draw.depth_write = from.depth_write != 0;
-    draw.conservative = static_cast<Conservative>(from.conservative);
-    if (from.has_scissor) draw.scissor = Scissor{from.scissor[0], from.scissor[1], from.scissor[2], from.scissor[3]};
-    if (from.has_grid) {
-      draw.grid = Grid{static_cast<int>(from.grid_bits), static_cast<int>(from.grid_offset_x),
-                       static_cast<int>(from.grid_offset_y), static_cast<GridRounding>(from.grid_rounding)};
-    }
+    set_state(from, draw.state());
     if (!draw.vertices.empty() && draw.vertices.size() <= 8) {
       std::array<Vertex, 8> box{};  // its hull is that of the vertices
       for (std::size_t i = 0; i < 8; ++i) box[i] = draw.vertices[i % draw.vertices.size()];

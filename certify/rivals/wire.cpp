@@ -3,6 +3,7 @@
 
 #include <cstring>
 
+#include "certify/rivals/draw_words.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::adapters {
@@ -98,33 +99,10 @@ Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_im
   if (scene.initial_depth) append(words, scene.initial_depth, total_samples(scene));
   for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
     const surefill_adapter_draw& draw = scene.draws[d];
-    const auto signed_word = [](std::int32_t value) { return static_cast<std::uint32_t>(value); };
-    words.insert(words.end(), {draw.vertex_count,
-                               draw.triangle_count,
-                               draw.clip_is_exact,
-                               bits(draw.viewport_x),
-                               bits(draw.viewport_y),
-                               bits(draw.viewport_width),
-                               bits(draw.viewport_height),
-                               bits(draw.viewport_near),
-                               bits(draw.viewport_far),
-                               draw.viewport_depth_range,
-                               draw.fill_rule,
-                               draw.front_face,
-                               draw.cull,
-                               draw.depth_mode,
-                               draw.depth_write,
-                               draw.conservative,
-                               draw.has_scissor,
-                               signed_word(draw.scissor[0]),
-                               signed_word(draw.scissor[1]),
-                               signed_word(draw.scissor[2]),
-                               signed_word(draw.scissor[3]),
-                               draw.has_grid,
-                               draw.grid_bits,
-                               draw.grid_rounding,
-                               draw.grid_offset_x,
-                               draw.grid_offset_y});
+    words.insert(words.end(), {draw.vertex_count, draw.triangle_count, draw.clip_is_exact, bits(draw.viewport_x),
+                               bits(draw.viewport_y), bits(draw.viewport_width), bits(draw.viewport_height),
+                               bits(draw.viewport_near), bits(draw.viewport_far), draw.viewport_depth_range});
+    for_each_state_word(draw, [&](const auto& word) { words.push_back(static_cast<std::uint32_t>(word)); });
     const std::size_t vertices = draw.vertex_count, triangles = draw.triangle_count;
     append(words, draw.pixel, 4 * vertices);
     append(words, draw.clip, 4 * vertices);
@@ -170,15 +148,9 @@ bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result) {
                           &draw.viewport_near, &draw.viewport_far}) {
       *number = reader.number();
     }
-    for (std::uint32_t* word : {&draw.viewport_depth_range, &draw.fill_rule, &draw.front_face, &draw.cull,
-                                &draw.depth_mode, &draw.depth_write, &draw.conservative, &draw.has_scissor}) {
-      *word = reader.word();
-    }
-    for (std::int32_t& side : draw.scissor) side = static_cast<std::int32_t>(reader.word());
-    for (std::uint32_t* word :
-         {&draw.has_grid, &draw.grid_bits, &draw.grid_rounding, &draw.grid_offset_x, &draw.grid_offset_y}) {
-      *word = reader.word();
-    }
+    draw.viewport_depth_range = reader.word();
+    for_each_state_word(
+        draw, [&](auto& word) { word = static_cast<std::remove_reference_t<decltype(word)>>(reader.word()); });
     const std::uint64_t vertices = draw.vertex_count, triangles = draw.triangle_count;
     draw.pixel = reader.numbers(4 * vertices);
     draw.clip = reader.numbers(4 * vertices);

@@ -25,21 +25,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _surefill
+from ._words import WORDS
 
 __version__: str = _surefill.version
 __all__ = ["NO_TRIANGLE", "Raster", "coverage", "interpolate", "rasterize", "to_pixel"]
 
 NO_TRIANGLE: int = 0xFFFFFFFF
 """The index of a sample that no triangle covers."""
-
-_FILL_RULES = ("top_left", "top_right", "bottom_left", "bottom_right", "southwards", "southwards_west", "northwards",
-               "northwards_west", "closed", "open")
-_FRONT_FACES = ("clockwise", "counter_clockwise")
-_CULLS = ("none", "front", "back")
-_DEPTH_TESTS = ("less", "greater")
-_DEPTH_MODES = ("none", "clip", "clamp")
-_INTERPOLATIONS = ("perspective", "noperspective", "flat")
-_CONSERVATIVES = ("none", "over", "inner")
 
 
 @dataclasses.dataclass(frozen=True)
@@ -83,7 +75,8 @@ def _array(name: str, value: object, dtypes: Tuple[type, ...], shape: Tuple[Opti
     return value
 
 
-def _choice(name: str, value: object, choices: Sequence[str]) -> int:
+def _choice(name: str, value: object) -> int:
+    choices = WORDS[name]
     if value not in choices:
         raise ValueError(f"{name}: one of {', '.join(choices)} is needed, not {value!r}")
     return choices.index(value)
@@ -117,11 +110,10 @@ def _draw_arguments(positions, triangles, size, *, samples, identifiers, fill_ru
     if initial_depth is not None:
         _array("initial_depth", initial_depth, (np.float32,), shape)
     return dict(positions=positions, triangles=triangles, height=height, width=width, samples=int(samples),
-                identifiers=identifiers, fill_rule=_choice("fill_rule", fill_rule, _FILL_RULES),
-                front_face=_choice("front_face", front_face, _FRONT_FACES), cull=_choice("cull", cull, _CULLS),
-                depth_test=_choice("depth_test", depth_test, _DEPTH_TESTS),
-                depth_mode=_choice("depth_mode", depth_mode, _DEPTH_MODES), initial_depth=initial_depth,
-                threads=_whole("threads", threads, 1, 256))
+                identifiers=identifiers, fill_rule=_choice("fill_rule", fill_rule),
+                front_face=_choice("front_face", front_face), cull=_choice("cull", cull),
+                depth_test=_choice("depth_test", depth_test), depth_mode=_choice("depth_mode", depth_mode),
+                initial_depth=initial_depth, threads=_whole("threads", threads, 1, 256))
 
 
 def _shape(call: dict) -> Tuple[int, ...]:
@@ -146,9 +138,8 @@ def to_pixel(clip: NDArray[np.float32], size: Tuple[int, int], *, depth_range: T
     except (TypeError, ValueError):
         raise TypeError("depth_range: a pair of numbers is needed") from None
     out = np.empty_like(clip, subok=False)
-    _surefill.to_pixel(clip, out, width, height, near_depth, far_depth,
-                       _choice("clip_depth", clip_depth, ("zero_to_one", "minus_one_to_one")),
-                       _choice("clip_y", clip_y, ("up", "down")))
+    _surefill.to_pixel(clip, out, width, height, near_depth, far_depth, _choice("clip_depth", clip_depth),
+                       _choice("clip_y", clip_y))
     return out
 
 
@@ -197,7 +188,7 @@ def interpolate(attributes: NDArray[np.float32], raster: Raster, *,
         raise ValueError(f"attributes: 1 to 4 columns are needed, not {attributes.shape[1]}")
     out = np.empty(_shape(call) + (attributes.shape[1],), np.float32)
     _surefill.render(**{**_NOTHING_ELSE, **call, "attributes": [(attributes, out)],
-                        "interpolation": _choice("interpolation", interpolation, _INTERPOLATIONS)})
+                        "interpolation": _choice("interpolation", interpolation)})
     return out
 
 
@@ -211,7 +202,7 @@ def coverage(positions: NDArray[np.float32], triangles: NDArray, size: Tuple[int
     call = _draw_arguments(positions, triangles, size, samples=samples, identifiers=None, fill_rule=fill_rule,
                            front_face=front_face, cull=cull, depth_test="less", depth_mode=depth_mode,
                            initial_depth=None, threads=threads)
-    how = _choice("conservative", conservative, _CONSERVATIVES)
+    how = _choice("conservative", conservative)
     if how != 0 and (samples != 1 or depth_mode != "none"):
         raise ValueError("conservative: one sample a pixel and depth_mode none are needed")
     count = np.empty(_shape(call), np.uint32)

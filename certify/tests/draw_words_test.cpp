@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// The words of version 1 of the adapter: a draw's state goes into them and comes back, through memory and through a message,
+// and what has no word there is named.
+#include "certify/rivals/draw_words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "certify/rivals/wire.hpp"
+
+namespace surefill::adapters {
+namespace {
+
+// States that differ from the default in one field each, and one that differs in all that version 1 has.
+std::vector<DrawState> states() {
+  std::vector<DrawState> states(8);
+  states[0].fill_rule = FillRule::northwards_west;
+  states[1].front_face = FrontFace::counter_clockwise;
+  states[2].cull = Cull::back;
+  states[3].depth_mode = DepthMode::clamp;
+  states[4].depth_write = false;
+  states[5].conservative = Conservative::inner;
+  states[6].scissor = Scissor{-1, 2, 3, 4};
+  states[7].grid = Grid{8, 3, 5, GridRounding::truncate};
+  DrawState all;
+  for (const DrawState& state : states) {
+    corpus::for_each_draw_field([&](const auto& field) {
+      if (!(state.*field.member == DrawState{}.*field.member)) all.*field.member = state.*field.member;
+    });
+  }
+  states.push_back(all);
+  return states;
+}
+
+TEST(DrawWords, AStateComesBack) {
+  for (const DrawState& state : states()) {
+    surefill_adapter_draw draw{};
+    set_words(state, draw);
+    DrawState back;
+    set_state(draw, back);
+    EXPECT_EQ(back, state);
+
+    surefill_adapter_scene scene{};
+    scene.width = scene.height = scene.samples = scene.draw_count = 1;
+    scene.draws = &draw;
+    const Words words = scene_words(scene, {});
+    DecodedScene decoded;
+    ASSERT_TRUE(decode_scene(words, decoded));
+    DrawState sent;
+    set_state(decoded.draws[0], sent);
+    EXPECT_EQ(sent, state);
+  }
+}
+
+TEST(DrawWords, WhatHasNoWordIsNamed) {
+  for (const DrawState& state : states()) EXPECT_EQ(field_without_word(state), "");
+  DrawState state;
+  state.culling_box = std::array<Vertex, 8>{};
+  EXPECT_EQ(field_without_word(state), "") << "it changes no image";
+  state.fill_rule = FillRule::closed;
+  EXPECT_EQ(field_without_word(state), "fill-rule");
+}
+
+}  // namespace
+}  // namespace surefill::adapters

@@ -43,6 +43,8 @@ ROOMS = {
     "examples/rivals": ["certify/adapter.h"],  # the same
     "certify/judge": [*ENGINE, "corpus", "oracle/model.hpp"],  # a library without an oracle, files or processes
     "certify": [*SUITE, "oracle/model.hpp", "textbook", "certify/adapter.h", "certify/judge", "mutation/zoo/zoo.hpp"],
+    "reference/surefill_reference.h": [],  # the engine's reference path in one file: it stands alone
+    "reference": ["reference/surefill_reference.h"],
     "bench": [*ENGINE, "corpus", "hwy"],
     "fuzz": [*SUITE, "certify", "certify/judge", "hwy"],
     "examples/fuzz_your_rasterizer.cpp": [*SUITE, "fuzz"],  # an example of the suite
@@ -59,6 +61,7 @@ ROOMS = {
     "mutation/schemata": [*SUITE, "certify", "engine/tests", "hwy"],  # a suite of its own, of the engine's tests among others
 }
 LONGEST = 700  # lines
+MADE = {"reference/surefill_reference.cpp": "reference/amalgamate.py"}  # files of any length, and what makes them
 FORMATTED = {".c", ".cpp", ".h", ".hpp"}
 CODE = FORMATTED | {".cmake", ".in", ".ml", ".py", ".sh", ".v"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
@@ -138,7 +141,11 @@ def main():
     files, faults = list(code_files(root)), []
     for file in files:
         lines = (root / file).read_text(encoding="utf-8").splitlines()
-        if len(lines) > LONGEST:
+        if file in MADE:
+            made = subprocess.run([sys.executable, root / MADE[file], "--check"], capture_output=True, text=True)
+            if made.returncode != 0:
+                faults.append((file, 1, made.stderr.strip()))
+        elif len(lines) > LONGEST:
             faults.append((file, LONGEST + 1, f"{len(lines)} lines; a file of code has at most {LONGEST}"))
         if pathlib.Path(file).suffix in FORMATTED:
             faults += [(file, *fault) for fault in check_includes(root, file, lines)]

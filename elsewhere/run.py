@@ -3,10 +3,11 @@
 """The same bits elsewhere: builds the engine for other machines, and with other compilers and options, runs every line of
 corpus/hashes.txt there, and prints a table.
 
-usage: elsewhere/run.py [--packages] [--reference] [--scenes PROGRAM] [--frames N] NAME...
+usage: elsewhere/run.py [--packages] [--reference | --one-file] [--scenes PROGRAM] [--frames N] NAME...
 
 A NAME is an architecture, a level (compiler and options for this machine), or one of the groups `architectures` and `levels`.
---packages prints the Debian packages that they need, and does nothing else. --reference builds and runs the reference path alone.
+--packages prints the Debian packages that they need, and does nothing else. --reference builds and runs the reference path alone,
+--one-file the reference engine in one file (reference/) alone.
 --scenes names surefill_hashed_scenes of this machine, if it is built already. --frames draws N random frames on both paths instead.
 Builds go to build/elsewhere/NAME. Exit 0: all lines are equal everywhere; 1: not; 2: wrong usage.
 """
@@ -34,7 +35,7 @@ class Machine:
     flags: str = ""
     link: str = ""
     ending: str = ""  # of programs
-    paths: tuple = ("fast", "reference")
+    paths: tuple = ("fast", "reference", "one file")  # the last is reference/surefill_reference.cpp, with none of the project's flags
     emulator: str = ""  # what says its version, where there is one
 
 
@@ -55,7 +56,7 @@ ARCHITECTURES = {
                        "-DCMAKE_CXX_COMPILER_TARGET=wasm32-wasi", "-DCMAKE_C_COMPILER_TARGET=wasm32-wasi",
                        "-DSUREFILL_REFERENCE_ONLY=ON"],
                       # The reader throws where a scene is wrong, which none of these is.
-                      flags="-fignore-exceptions", link="-Wl,-z,stack-size=8388608", paths=("reference",), emulator="node"),
+                      flags="-fignore-exceptions", link="-Wl,-z,stack-size=8388608", paths=("reference", "one file"), emulator="node"),
     "ppc64le": cross("powerpc64le-linux-gnu", "ppc64le", "ppc64le"),
     "riscv64": cross("riscv64-linux-gnu", "riscv64", "riscv64"),
     "armhf": cross("arm-linux-gnueabihf", "armv7l", "arm"),
@@ -147,7 +148,8 @@ def in_parts(command, of_part):
 
 def lines_equal(machine, programs, scenes, path):
     """What drew, how many lines are equal, and of how many."""
-    command = [*machine.run, programs / f"surefill_hashes{machine.ending}", *(["--reference"] if path == "reference" else [])]
+    program = programs.parent / "reference" / "surefill_reference_hashes" if path == "one file" else programs / "surefill_hashes"
+    command = [*machine.run, program.with_name(program.name + machine.ending), *(["--reference"] if path == "reference" else [])]
     corpus = ROOT / "corpus"
     answers = in_parts(command, lambda n: ["--part", f"{n}/{PARTS}", corpus / "hashes.txt", corpus / "cases", scenes])
     counts = [re.fullmatch(r"(.*): (\d+) of (\d+) lines equal", answer) for answer in answers]
@@ -189,11 +191,13 @@ class Clock:
         return f"{time.monotonic() - self.begun:.0f} s ({self.processor() - self.used:.0f} s of a processor)"
 
 
-def rows(name, scenes, reference_only):
-    """The lines of the table for one machine, and whether all is equal."""
+def rows(name, scenes, only):
+    """The lines of the table for one machine, and whether all is equal. Of the paths only one, unless that is None."""
     machine = MACHINES[name]
     clock = Clock()
-    programs = build(name, machine, ["surefill_hashes", "surefill_sizes"], reference_only)
+    paths = [path for path in machine.paths if path == only or only is None]
+    targets = ["surefill_hashes", "surefill_sizes"] if paths != ["one file"] else ["surefill_sizes"]
+    programs = build(name, machine, targets + ["surefill_reference_hashes"] * ("one file" in paths), only is not None)
     built = str(clock)
     called([*machine.run, programs / f"surefill_sizes{machine.ending}"], env=os.environ | {"WINEDEBUG": "-all", "WINEPREFIX": str(BUILD / "wine")})
     compiler = f"clang {version(machine.compiler)}" if "clang" in machine.compiler else f"g++ {version(machine.compiler, '-dumpfullversion')}"
@@ -201,13 +205,11 @@ def rows(name, scenes, reference_only):
     if machine.emulator.startswith("qemu"):
         emulated = f"emulated, {emulated}"
     right = True
-    for path in machine.paths:
-        if reference_only and path != "reference":
-            continue
+    for path in paths:
         clock = Clock()
         who, equal, lines = lines_equal(machine, programs, scenes, path)
         right = right and equal == lines
-        print(f"{name:<26} {compiler:<14} {who:<10} {equal} of {lines} equal   {emulated:<28} built in {built}, run in {clock}", flush=True)
+        print(f"{name:<26} {compiler:<14} {path if path == 'one file' else who:<10} {equal} of {lines} equal   {emulated:<28} built in {built}, run in {clock}", flush=True)
     return right
 
 
@@ -224,7 +226,7 @@ def main():
     for argument in arguments:
         if not argument.startswith("--"):
             names += {"architectures": list(ARCHITECTURES), "levels": list(LEVELS)}.get(argument, [argument])
-    unknown = [n for n in names if n not in MACHINES] + sorted(flags - {"--packages", "--reference"})
+    unknown = [n for n in names if n not in MACHINES] + sorted(flags - {"--packages", "--reference", "--one-file"})
     if unknown or not names or not given.get("--frames", "1").isdigit():
         print(__doc__ + f"\nknown: {' '.join(MACHINES)}\n" + (f"unknown: {' '.join(unknown)}" if unknown else ""), file=sys.stderr)
         return 2
@@ -232,10 +234,11 @@ def main():
         print(" ".join(dict.fromkeys(package for name in names for package in MACHINES[name].packages)))
         return 0
     failed = []
+    only = "reference" if "--reference" in flags else "one file" if "--one-file" in flags else None
     scenes = None if "--frames" in given else random_scenes(given.get("--scenes"))
     for name in names:
         try:
-            right = frames(name, int(given["--frames"])) if "--frames" in given else rows(name, scenes, "--reference" in flags)
+            right = frames(name, int(given["--frames"])) if "--frames" in given else rows(name, scenes, only)
         except (RuntimeError, OSError) as error:
             right = False
             print(f"{name}: {error}", file=sys.stderr, flush=True)

@@ -1,0 +1,2354 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Surefill 0.2.0: the reference engine in one file, its source. Made by reference/amalgamate.py of engine/ in
+// Surefill's sources: change those, and not this file.
+// clang-format off
+#include "surefill_reference.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cfenv>
+#include <cfloat>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <memory>
+#include <new>
+#include <span>
+
+#if defined(__SSE2__)
+#include <immintrin.h>
+#endif
+
+#if defined(__clang__)
+#pragma STDC FP_CONTRACT OFF
+#elif defined(__GNUC__)
+#pragma GCC optimize("fp-contract=off")
+#elif defined(_MSC_VER)
+#pragma fp_contract(off)
+#endif
+
+// ---------------------------------------------------------------- src/arguments.hpp
+namespace surefill_reference {
+
+// As validate, for a call that has options and may have statistics (else null): B2.
+Status check_call(const Target& target, std::span<const Draw> draws, const Statistics* statistics,
+                  const Options& options) noexcept;
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/build_check.hpp
+//
+// What the engine asks of its compiler: each operation on floats and doubles rounded once, to its own type, in the
+// order in which it is written. What options tell is checked here. Contraction to fused operations is told by no macro:
+// the build switches it off, and where sources were copied into another build, the first call finds out by trying.
+
+
+#if defined(__FAST_MATH__) || defined(__ASSOCIATIVE_MATH__) || defined(__RECIPROCAL_MATH__) || \
+    defined(__NO_SIGNED_ZEROS__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__ > 0)
+#error \
+    "Surefill's images would be wrong: compile its sources without -ffast-math, -Ofast and their parts (add -fno-fast-math; programs that use the library may keep them)"
+#endif
+
+// 16 says so of _Float16 alone, which the engine does not use.
+#if FLT_EVAL_METHOD != 0 && FLT_EVAL_METHOD != 16
+#error \
+    "Surefill's images would be wrong: float and double must be computed in their own precision (FLT_EVAL_METHOD 0), on x86 with -msse2 -mfpmath=sse"
+#endif
+
+namespace surefill_reference {
+
+// Does scalar arithmetic hold what is asked for? Vector code has its own check, for each instruction set.
+bool is_exact_build();
+
+// Numbers that show contraction: x^2 is 1 + 2 s + s^2, rounded 1 + 2 s, as s^2 is half a last place or less. Volatile,
+// so that the compiler works out nothing.
+template <typename T>
+struct ContractionProbe {
+  static constexpr T kStep = sizeof(T) == 8 ? T(0x1p-27) : T(0x1p-12);
+  volatile T x = 1 + kStep, square = 1 + 2 * kStep, one = 1, small = kStep * kStep / 4;
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/facts.hpp
+//
+// What a target and a draw mean, each fact once, for both paths: regions, samples, outputs, indices, strides, culling,
+// finiteness. No arithmetic that decides coverage or values: the paths share none.
+
+
+
+namespace surefill_reference {
+
+// Half-open rectangle of pixels.
+struct PixelBox {
+  int x0, y0, x1, y1;
+  bool empty() const { return x0 >= x1 || y0 >= y1; }
+  bool contains(int x, int y) const { return x0 <= x && x < x1 && y0 <= y && y < y1; }
+};
+
+// A sample position in pixels: a multiple of 1/16 in [0, kMaxTargetSize], exact in double.
+struct SamplePosition {
+  double x, y;
+};
+
+// ---- of a target
+// Which results somebody asks for, in terms of work.
+struct Wanted {
+  bool shading;     // barycentrics or attributes
+  bool visibility;  // the triangle that is seen: its index, or shading
+  bool depth;       // depth, or what needs it
+};
+
+inline Wanted wanted_outputs(const Target& target) {
+  Wanted wanted{!target.barycentrics.empty(), false, false};
+  for (const AttributeTarget& attribute : target.attributes) wanted.shading |= !attribute.values.empty();
+  wanted.visibility = wanted.shading || !target.index.empty();
+  wanted.depth = wanted.visibility || !target.depth.empty();
+  return wanted;
+}
+
+// Where sample n of a pixel lies, from the pixel's corner (S4).
+inline SamplePosition sample_offset(int samples, int n) {
+  const SampleLocation location = sample_location(samples, n);
+  return {location.x / 16.0, location.y / 16.0};
+}
+
+// The element of a buffer that sample n of pixel (x, y) has.
+inline std::size_t sample_index(const Target& target, int x, int y, std::size_t n) {
+  return (static_cast<std::size_t>(y) * static_cast<std::size_t>(target.width) + static_cast<std::size_t>(x)) *
+             static_cast<std::size_t>(target.samples) +
+         n;
+}
+
+// The depth of an empty sample without initial depth (V1).
+inline float empty_depth(DepthTest test) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  return test == DepthTest::greater ? -kInfinity : kInfinity;
+}
+
+// ---- of a draw
+inline std::size_t triangles_of(const Draw& draw) {
+  return draw.indices.size() / 3;
+}
+
+// Target and scissor (M3).
+inline PixelBox region_of(const Target& target, const Draw& draw) {
+  PixelBox region{0, 0, target.width, target.height};
+  if (draw.scissor) {
+    region = {std::max(region.x0, draw.scissor->x0), std::max(region.y0, draw.scissor->y0),
+              std::min(region.x1, draw.scissor->x1), std::min(region.y1, draw.scissor->y1)};
+    if (region.empty()) region = {};
+  }
+  return region;
+}
+
+// Floats from one vertex to the next.
+inline std::size_t stride_of(const AttributeArray& attribute) {
+  return attribute.stride != 0 ? attribute.stride : attribute.components;
+}
+
+// Does culling leave out what faces so? `facing` has the sign of D (F1, F2) or, under Grid, that of a sample (G1).
+inline bool culls(const DrawState& draw, int facing) {
+  const bool front = (facing > 0) == (draw.front_face == FrontFace::clockwise);
+  return draw.cull == (front ? Cull::front : Cull::back);
+}
+
+// ---- of a triangle, by its position in the draw
+inline std::uint32_t vertex_index(const Draw& draw, std::uint32_t position, std::size_t corner) {
+  return draw.indices[std::size_t{3} * position + corner];
+}
+
+inline const Vertex& vertex_of(const Draw& draw, std::uint32_t position, std::size_t corner) {
+  return draw.vertices[vertex_index(draw, position, corner)];
+}
+
+// What the index output has for it (V2).
+inline std::uint32_t index_of(const Draw& draw, std::uint32_t position) {
+  return draw.identifiers.empty() ? draw.first_index + position : draw.identifiers[position];
+}
+
+inline bool is_finite(const Vertex& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
+}
+
+// B1, of the attributes alone: every component, whatever is asked for.
+inline bool attributes_are_finite(const Draw& draw, std::uint32_t position) {
+  for (const AttributeArray& attribute : draw.attributes) {
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const float* values = &attribute.values[vertex_index(draw, position, corner) * stride_of(attribute)];
+      for (std::uint32_t c = 0; c < attribute.components; ++c) {
+        if (!std::isfinite(values[c])) return false;
+      }
+    }
+  }
+  return true;
+}
+
+// B1: if not, the triangle is dropped.
+inline bool is_finite(const Draw& draw, std::uint32_t position) {
+  return is_finite(vertex_of(draw, position, 0)) && is_finite(vertex_of(draw, position, 1)) &&
+         is_finite(vertex_of(draw, position, 2)) && attributes_are_finite(draw, position);
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/float_environment.hpp
+//
+// The floating-point state that the engine's proofs assume (B4): round to nearest, ties to even, subnormals kept on
+// input and output, no traps. Set on entry of every public call, also for checks that look at floats; on exit the
+// caller gets its own back, exception flags included.
+
+
+
+
+namespace surefill_reference {
+
+// A thread's modes, traps and exception flags.
+class FloatState {
+ public:
+#if defined(__SSE2__)
+
+  static FloatState now() {
+    return FloatState(_mm_getcsr());
+  }
+  static FloatState of_engine() {
+    return FloatState(0x1F80);
+  }
+  void set() const {
+    _mm_setcsr(control_);
+  }
+  unsigned flags() const {
+    return control_ & 0x3F;
+  }
+  FloatState with_flags(unsigned flags) const {
+    return FloatState(control_ | flags);
+  }
+
+ private:
+  explicit FloatState(unsigned control) : control_(control) {}
+  unsigned control_;  // MXCSR
+
+#elif defined(__aarch64__)
+
+  static FloatState now() {
+    FloatState state;
+    asm volatile("mrs %0, fpcr" : "=r"(state.control_));
+    asm volatile("mrs %0, fpsr" : "=r"(state.status_));
+    return state;
+  }
+  static FloatState of_engine() {
+    return {};
+  }
+  void set() const {
+    asm volatile("msr fpcr, %0" : : "r"(control_));
+    asm volatile("msr fpsr, %0" : : "r"(status_));
+  }
+  unsigned flags() const {
+    return static_cast<unsigned>(status_);
+  }
+  FloatState with_flags(unsigned flags) const {
+    FloatState state = *this;
+    state.status_ |= flags;
+    return state;
+  }
+
+ private:
+  std::uint64_t control_ = 0, status_ = 0;  // FPCR, FPSR
+
+#else  // standard C++ has to do: it knows the rounding mode, and FE_DFL_ENV has subnormals
+
+  static FloatState now() {
+    FloatState state;
+    std::fegetenv(&state.environment_);
+    state.flags_ = static_cast<unsigned>(std::fetestexcept(FE_ALL_EXCEPT));
+    return state;
+  }
+  static FloatState of_engine() {
+    FloatState before = now(), state;
+    std::fesetenv(FE_DFL_ENV);
+    std::fegetenv(&state.environment_);
+    before.set();
+    return state;
+  }
+  void set() const {
+    std::fesetenv(&environment_);
+    std::feraiseexcept(static_cast<int>(flags_));
+  }
+  unsigned flags() const {
+    return flags_;
+  }
+  FloatState with_flags(unsigned flags) const {
+    FloatState state = *this;
+    state.flags_ |= flags;
+    return state;
+  }
+
+ private:
+  std::fenv_t environment_{};
+  unsigned flags_ = 0;
+
+#endif
+};
+
+// The engine's state on this thread while it lives. Compilers know nothing of it and move arithmetic across: what
+// needs the state is in a function that is not inlined.
+class FloatEnvironment {
+ public:
+  FloatEnvironment() : before_(FloatState::now()) { FloatState::of_engine().set(); }
+  ~FloatEnvironment() { before_.with_flags(raised_.load(std::memory_order_relaxed)).set(); }
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+  // Runs the caller's code in the state that was there before, on this thread or another one in the engine's state. The
+  // flags that it raises are among those given back.
+  template <typename Code>
+  void leave_for(const Code& code) {
+    before_.set();
+    code();
+    const unsigned flags = FloatState::now().flags();
+    FloatState::of_engine().set();
+    if ((flags & ~raised_.load(std::memory_order_relaxed)) != 0) raised_.fetch_or(flags, std::memory_order_relaxed);
+  }
+
+ private:
+  const FloatState before_;
+  std::atomic<unsigned> raised_{0};
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/reference.hpp
+//
+// The scalar reference path: plain portable C++, one triangle and one sample at a time. It is what the fast path is
+// held to.
+
+
+
+namespace surefill_reference::reference {
+
+// As surefill_reference::render, for arguments that validate() has accepted, with the floating-point state already set. Returns
+// ok or out_of_memory.
+Status render(const Target& target, std::span<const Draw> draws, Rungs& rungs) noexcept;
+
+// As surefill_reference::visit_coverage, in the same way. Returns ok.
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      Rungs& rungs) noexcept;
+
+}  // namespace surefill_reference::reference
+
+// ---------------------------------------------------------------- src/statistics.hpp
+namespace surefill_reference {
+
+// M11: of draws that validate() has accepted, with the floating-point state already set. No path has a part in it.
+Statistics statistics_of(std::span<const Draw> draws) noexcept;
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/exact.hpp
+//
+// Exact arithmetic on doubles: sums and products that keep their rounding error, expansions (sums of doubles that do
+// not overlap), and the one rounding from an exact quotient to float32. Source: J. R. Shewchuk, Adaptive Precision
+// Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997.
+//
+// Holds in round-to-nearest with subnormals and without contraction to FMA (B4; the build sets -ffp-contract=off).
+// Range: all numbers here are sums of products of at most five float32 values or float32 midpoints and two sample
+// coordinates: between 2^-760 and 2^700, so nothing overflows, and no error term underflows.
+
+
+
+namespace surefill_reference {
+
+struct DoublePair {
+  double value, error;  // value + error is exact; value is value + error rounded to nearest
+};
+
+// a + b (Knuth; Shewchuk theorem 7).
+inline DoublePair two_sum(double a, double b) {
+  const double sum = a + b;
+  const double b_virtual = sum - a;
+  const double a_virtual = sum - b_virtual;
+  return {sum, (a - a_virtual) + (b - b_virtual)};
+}
+
+// a * b (Dekker, Veltkamp; Shewchuk theorems 17 and 18).
+inline DoublePair two_product(double a, double b) {
+  constexpr double kSplitter = 0x1p27 + 1;
+  const double product = a * b;
+  const double a_big = kSplitter * a, a_high = a_big - (a_big - a), a_low = a - a_high;
+  const double b_big = kSplitter * b, b_high = b_big - (b_big - b), b_low = b - b_high;
+  const double error = a_low * b_low - (((product - a_high * b_high) - a_low * b_high) - a_high * b_low);
+  return {product, error};
+}
+
+// A real number as a sum of at most kCapacity doubles, smallest first, nonadjacent (Shewchuk theorem 10: growing by one
+// double at a time keeps them so under ties to even). No term is 0, so the number is 0 exactly if there are no terms.
+template <std::size_t kCapacity>
+class Expansion {
+ public:
+  // Adds one double. At most one term more.
+  void add(double b) {
+    int kept = 0;
+    for (int i = 0; i < size_; ++i) {
+      const DoublePair sum = two_sum(b, term_[i]);
+      if (sum.error != 0) term_[kept++] = sum.error;
+      b = sum.value;
+    }
+    if (b != 0) term_[kept++] = b;
+    size_ = kept;
+  }
+
+  // Adds a * b. At most two terms more.
+  void add_product(double a, double b) {
+    const DoublePair product = two_product(a, b);
+    if (product.error != 0) add(product.error);
+    add(product.value);
+  }
+
+  // Adds other * factor. At most twice as many terms more as `other` has.
+  template <std::size_t kOther>
+  void add_scaled(const Expansion<kOther>& other, double factor) {
+    for (int i = 0; i < other.size(); ++i) add_product(other.term(i), factor);
+  }
+
+  int sign() const { return size_ == 0 ? 0 : term_[size_ - 1] > 0 ? 1 : -1; }
+
+  // The number, to a relative error below 2^-50: the terms are nonadjacent, so the largest is at least half of the sum.
+  double estimate() const {
+    double sum = 0;
+    for (int i = 0; i < size_; ++i) sum += term_[i];
+    return sum;
+  }
+
+  int size() const { return size_; }
+  double term(int i) const { return term_[i]; }
+
+ private:
+  double term_[kCapacity];
+  int size_ = 0;
+};
+
+// The float32 nearest to a real number that is known to lie between two neighbours low < high; `sign_at(m)` is the
+// exact sign of number - m. An infinite neighbour stands for 2^128.
+template <typename SignAtMidpoint>
+float nearest_of_neighbours(float low, float high, SignAtMidpoint sign_at) {
+  const double beyond = 0x1p128;
+  const double low_value = std::isinf(low) ? -beyond : static_cast<double>(low);
+  const double high_value = std::isinf(high) ? beyond : static_cast<double>(high);
+  const double midpoint = low_value + (high_value - low_value) / 2;  // exact: 25 bits
+  const int above = sign_at(midpoint);
+  if (above != 0) return above > 0 ? high : low;
+  return static_cast<float>(midpoint);  // ties to even, by the conversion itself
+}
+
+constexpr double kLargestFloat = std::numeric_limits<float>::max();
+
+// Rounds as I4 says, if the interval [low, high] around the real number is narrow enough to tell: true, and `*rounded`
+// is the finite float32 nearest to every number of the interval. An interval with a NaN tells nothing.
+inline bool round_interval(double low, double high, float* rounded) {
+  low = low < -kLargestFloat ? -kLargestFloat : low > kLargestFloat ? kLargestFloat : low;
+  high = high < -kLargestFloat ? -kLargestFloat : high > kLargestFloat ? kLargestFloat : high;
+  const float from_low = static_cast<float>(low);
+  if (!(from_low == static_cast<float>(high))) return false;
+  *rounded = from_low + 0.0f;  // -0 becomes +0
+  return true;
+}
+
+// The float32 nearest to numerator / denominator as I4 says; denominator is not 0.
+template <std::size_t kNumerator, std::size_t kDenominator>
+float round_quotient(const Expansion<kNumerator>& numerator, const Expansion<kDenominator>& denominator) {
+  const double quotient = numerator.estimate() / denominator.estimate();  // relative error below 2^-48
+  const double error = std::fabs(quotient) * 0x1p-48;
+  float rounded;
+  if (round_interval(quotient - error, quotient + error, &rounded)) return rounded;
+  // The interval is far narrower than the distance of floats: there is one midpoint in it, between these neighbours.
+  const float low = static_cast<float>(quotient - error), high = static_cast<float>(quotient + error);
+  const float nearest = nearest_of_neighbours(low, high, [&](double midpoint) {
+    Expansion<kNumerator + 2 * kDenominator> rest;
+    for (int i = 0; i < numerator.size(); ++i) rest.add(numerator.term(i));
+    rest.add_scaled(denominator, -midpoint);
+    return rest.sign() * denominator.sign();
+  });
+  return nearest + 0.0f;
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/edge.hpp
+//
+// Edge functions of a homogeneous triangle (semantics.md, section 2; Olano and Greer 1997) and the ladder that finds
+// their exact signs: double with an error bound, double proved exact by its residuals, expansions.
+
+
+
+namespace surefill_reference {
+
+// Counts a decision, where somebody asks.
+inline void count(Rungs* rungs, std::uint64_t Rungs::*rung) {
+  if (rungs != nullptr) ++(rungs->*rung);
+}
+
+// Relative to the sum of absolute terms, the rounding error of a x + b y + c is below 8 units of 2^-53: one for a
+// coefficient (its products are exact), one for the product, two for the sums, and as much again for the sum of
+// absolute terms itself.
+constexpr double kEdgeErrorBound = 0x1p-50;
+
+constexpr int sign_of(double value) {
+  return value > 0 ? 1 : value < 0 ? -1 : 0;
+}
+
+// r = p - q without rounding error, for r computed as p - q?
+inline bool difference_is_exact(double p, double q) {
+  return two_sum(p, -q).error == 0;
+}
+
+// E(p) = a x + b y + c for the edge from vertex j to vertex k. Each coefficient is a difference of two exact products,
+// rounded once: its sign, and whether it is 0, are exact.
+struct EdgeFunction {
+  double a, b, c;
+  bool exact;  // all three coefficients without rounding error
+  Vertex from, to;
+
+  EdgeFunction() = default;
+  EdgeFunction(const Vertex& j, const Vertex& k) : from(j), to(k) {
+    const double jx = j.x, jy = j.y, jw = j.w, kx = k.x, ky = k.y, kw = k.w;
+    a = jy * kw - jw * ky;
+    b = jw * kx - jx * kw;
+    c = jx * ky - jy * kx;
+    exact = difference_is_exact(jy * kw, jw * ky) && difference_is_exact(jw * kx, jx * kw) &&
+            difference_is_exact(jx * ky, jy * kx);
+  }
+
+  // E at p in double, and a bound of its absolute error.
+  double value(SamplePosition p, double* error_bound) const {
+    *error_bound = kEdgeErrorBound * ((std::fabs(a) * p.x + std::fabs(b) * p.y) + std::fabs(c));
+    return (a * p.x + b * p.y) + c;
+  }
+
+  // E at p, exactly. Four products of 48 bits times 18 bits, and two of 48 bits.
+  Expansion<10> exact_value(SamplePosition p) const {
+    const double jx = from.x, jy = from.y, jw = from.w, kx = to.x, ky = to.y, kw = to.w;
+    Expansion<10> sum;
+    sum.add_product(jy * kw, p.x);
+    sum.add_product(-(jw * ky), p.x);
+    sum.add_product(jw * kx, p.y);
+    sum.add_product(-(jx * kw), p.y);
+    sum.add(jx * ky);
+    sum.add(-(jy * kx));
+    return sum;
+  }
+
+  // The sign of E at p, 0 for a real tie.
+  int sign(SamplePosition p, Rungs* rungs = nullptr) const {
+    double bound;
+    const double estimate = value(p, &bound);
+    if (std::fabs(estimate) > bound) {
+      count(rungs, &Rungs::signs_by_filter);
+      return sign_of(estimate);
+    }
+    if (exact) {
+      const DoublePair ax = two_product(a, p.x), by = two_product(b, p.y);
+      const DoublePair ab = two_sum(ax.value, by.value), abc = two_sum(ab.value, c);
+      if (ax.error == 0 && by.error == 0 && ab.error == 0 && abc.error == 0) {
+        count(rungs, &Rungs::signs_by_residual);
+        return sign_of(abc.value);
+      }
+    }
+    count(rungs, &Rungs::signs_by_expansion);
+    return exact_value(p).sign();
+  }
+};
+
+// What a fill rule does with a sample on an edge: where it moves it (C3), or which side has all of them (C5).
+struct TieShift {
+  int x, y;  // +1 or -1
+  bool y_dominates;
+  int all = 0;  // +1: every sample on an edge is covered; -1: none is; 0: the sample moves
+};
+
+// Is it one of C3's rules, and not of C5's?
+inline bool moves_samples(FillRule rule) {
+  return rule <= FillRule::northwards_west;
+}
+
+inline TieShift tie_shift(FillRule rule) {
+  switch (rule) {
+    case FillRule::top_left:
+      return {+1, +1, false};
+    case FillRule::top_right:
+      return {-1, +1, false};
+    case FillRule::bottom_left:
+      return {+1, -1, false};
+    case FillRule::bottom_right:
+      return {-1, -1, false};
+    case FillRule::southwards:
+      return {+1, +1, true};
+    case FillRule::southwards_west:
+      return {-1, +1, true};
+    case FillRule::northwards:
+      return {+1, -1, true};
+    case FillRule::northwards_west:
+      return {-1, -1, true};
+    case FillRule::closed:
+      return {+1, +1, false, +1};
+    case FillRule::open:
+      return {+1, +1, false, -1};
+  }
+  return {+1, +1, false};
+}
+
+// The sign that an edge function takes where it is 0 (C3). a and b are not both 0 there.
+inline int tie_sign(double a, double b, TieShift shift) {
+  const int along_x = sign_of(a) * shift.x, along_y = sign_of(b) * shift.y;
+  if (shift.y_dominates) return along_y != 0 ? along_y : along_x;
+  return along_x != 0 ? along_x : along_y;
+}
+
+// The same for a triangle whose D has the sign `determinant`, under any rule (C3, C5).
+inline int tie_sign(const EdgeFunction& edge, TieShift shift, int determinant) {
+  return shift.all != 0 ? shift.all * determinant : tie_sign(edge.a, edge.b, shift);
+}
+
+// det(m0, m1, m2), exactly.
+inline Expansion<12> exact_determinant(const Vertex& v0, const Vertex& v1, const Vertex& v2) {
+  Expansion<12> sum;
+  const auto add = [&sum](double x, double y, double z) { sum.add_product(x * y, z); };
+  add(v1.y, v2.w, v0.x), add(-v1.w, v2.y, v0.x);
+  add(v1.w, v2.x, v0.y), add(-v1.x, v2.w, v0.y);
+  add(v1.x, v2.y, v0.w), add(-v1.y, v2.x, v0.w);
+  return sum;
+}
+
+// The sign of D = det(m0, m1, m2). `edge0` is the edge from v1 to v2: D is its value at m0, with the same error bound.
+inline int determinant_sign(const EdgeFunction& edge0, const Vertex& v0, Rungs* rungs = nullptr) {
+  const double ax = edge0.a * v0.x, by = edge0.b * v0.y, cw = edge0.c * v0.w;
+  const double estimate = (ax + by) + cw;
+  if (std::fabs(estimate) > kEdgeErrorBound * ((std::fabs(ax) + std::fabs(by)) + std::fabs(cw))) {
+    count(rungs, &Rungs::signs_by_filter);
+    return sign_of(estimate);
+  }
+  count(rungs, &Rungs::signs_by_expansion);
+  return exact_determinant(v0, edge0.from, edge0.to).sign();
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/overlap.hpp
+//
+// Which memory a call writes, and whether that overlaps what it reads (B2).
+
+
+
+namespace surefill_reference {
+
+struct Bytes {
+  std::uint64_t begin = 0, end = 0;  // in 64 bits: memory may end where the addresses do
+
+  Bytes() = default;
+  Bytes(const void* data, std::uint64_t size) : begin(reinterpret_cast<std::uintptr_t>(data)), end(begin + size) {}
+  template <typename T>
+  explicit Bytes(std::span<T> s) : Bytes(s.data(), s.size() * std::uint64_t{sizeof(T)}) {}
+  // Of one object, which may be null.
+  template <typename T>
+  static Bytes of(const T* object) {
+    return {object, object == nullptr ? 0 : sizeof(T)};
+  }
+
+  // Do they share a byte? Empty ones share none.
+  bool overlaps(const Bytes& other) const {
+    return begin < end && other.begin < other.end && begin < other.end && other.begin < end;
+  }
+};
+
+// The memory that a call writes.
+class Outputs {
+ public:
+  // False if it overlaps what was there before.
+  bool add(const Bytes& bytes) {
+    if (touched_by(bytes)) return false;
+    bytes_[count_++] = bytes;
+    return true;
+  }
+
+  // All buffers of a target; false if they overlap. A list of attributes that is null or too long is not read.
+  bool add_buffers(const Target& target) {
+    bool apart = add(Bytes(target.count)) && add(Bytes(target.index)) && add(Bytes(target.depth)) &&
+                 add(Bytes(target.barycentrics));
+    if (target.attributes.data() == nullptr || target.attributes.size() > kMaxAttributes) return apart;
+    for (const AttributeTarget& attribute : target.attributes) apart = apart && add(Bytes(attribute.values));
+    return apart;
+  }
+
+  bool touched_by(const Bytes& bytes) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (bytes_[i].overlaps(bytes)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 6 + kMaxAttributes;  // four buffers, the attributes, statistics, diagnostics
+  Bytes bytes_[kMost];
+  std::size_t count_ = 0;
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/bounds.hpp
+//
+// A box of pixels that holds every sample a triangle can cover. Vertices are divided by W only where W > 0; a vertex at
+// or behind the eye either proves that it does not reach past a bound, or the box ends at the target's edge there (J.
+// Blinn, Calculating Screen Coverage, 1996).
+
+
+
+namespace surefill_reference {
+
+// An interval of real numbers: what a triangle reaches along one axis in front of the eye.
+struct Reach {
+  double low, high;
+};
+
+// Along one axis: `c` is X (or Y) of the three vertices. Not all W are <= 0.
+//
+// A visible point is a sum of l_i m_i with l_i >= 0 and W > 0. If c_i - high W_i <= 0 for every vertex, the same holds
+// for the sum, so c / W <= high. For W_i > 0 that is c_i / W_i <= high. Rounding the quotient is monotonic and sample
+// coordinates are doubles, so no margin is needed while all W > 0; with another vertex in play the bounds move outwards
+// by one ulp.
+inline Reach reach(const double (&c)[3], const double (&w)[3]) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Reach r{kInfinity, -kInfinity};
+  bool all_in_front = true;
+  for (int i = 0; i < 3; ++i) {
+    if (w[i] > 0) {
+      r.low = std::min(r.low, c[i] / w[i]);
+      r.high = std::max(r.high, c[i] / w[i]);
+    } else {
+      all_in_front = false;
+    }
+  }
+  if (all_in_front) return r;
+  r.low = std::nextafter(r.low, -kInfinity);
+  r.high = std::nextafter(r.high, kInfinity);
+  for (int i = 0; i < 3; ++i) {
+    if (w[i] > 0) continue;
+    // high W_i and low W_i with their rounding error taken to the unsafe side; 0 is exact.
+    const double at_high = r.high * w[i], at_low = r.low * w[i];
+    if (!(c[i] <= at_high - std::fabs(at_high) * 0x1p-52)) r.high = kInfinity;
+    if (!(c[i] >= at_low + std::fabs(at_low) * 0x1p-52)) r.low = -kInfinity;
+  }
+  return r;
+}
+
+// Pixels i of [first, last) with a sample coordinate i + offset in the reach, offset between the two given ones.
+inline void clip_to_reach(Reach r, double least_offset, double largest_offset, int* first, int* last) {
+  const double lowest = std::ceil(r.low - largest_offset), highest = std::floor(r.high - least_offset);
+  *first = static_cast<int>(std::clamp(lowest, static_cast<double>(*first), static_cast<double>(*last)));
+  *last = static_cast<int>(std::clamp(highest + 1, static_cast<double>(*first), static_cast<double>(*last)));
+}
+
+// The part of `limits` that the triangle can reach. Sample offsets within a pixel lie in [least_offset,
+// largest_offset].
+inline PixelBox screen_box(const Vertex& v0, const Vertex& v1, const Vertex& v2, PixelBox limits, double least_offset,
+                           double largest_offset) {
+  const double w[3] = {v0.w, v1.w, v2.w};
+  if (!(w[0] > 0 || w[1] > 0 || w[2] > 0)) return {0, 0, 0, 0};
+  clip_to_reach(reach({v0.x, v1.x, v2.x}, w), least_offset, largest_offset, &limits.x0, &limits.x1);
+  clip_to_reach(reach({v0.y, v1.y, v2.y}, w), least_offset, largest_offset, &limits.y0, &limits.y1);
+  return limits;
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/triangle.hpp
+//
+// One triangle set up for exact evaluation at samples: coverage (C2, C3), depth (I1, I5), attributes (I2, I3), each by
+// a filter in double and, where that cannot tell, by expansions.
+
+
+
+namespace surefill_reference {
+
+// A double and a bound of its distance from the real number it stands for.
+struct Approximation {
+  double value, error;
+};
+
+// w0 e0 + w1 e1 + w2 e2 for exact weights. Three products and two sums: below 3 units of 2^-53 of the sum of absolute
+// terms; the bound has 8, which covers the rounding of the bound itself.
+inline Approximation weighted_sum(const double (&w)[3], const Approximation (&e)[3]) {
+  const double t0 = w[0] * e[0].value, t1 = w[1] * e[1].value, t2 = w[2] * e[2].value;
+  const double magnitude = (std::fabs(t0) + std::fabs(t1)) + std::fabs(t2);
+  const double inherited = (std::fabs(w[0]) * e[0].error + std::fabs(w[1]) * e[1].error) + std::fabs(w[2]) * e[2].error;
+  return {(t0 + t1) + t2, inherited + 0x1p-50 * magnitude};
+}
+
+// n / m. For real N, M: N/M - n/m = ((N - n) - (n/m)(M - m)) / M. Infinite error where M may be 0. The factor covers
+// the rounding of the bound.
+inline Approximation quotient(Approximation n, Approximation m) {
+  const double smallest = std::fabs(m.value) - m.error;
+  if (!(smallest > 0)) return {0, std::numeric_limits<double>::infinity()};
+  const double q = n.value / m.value;
+  return {q, ((n.error + std::fabs(q) * m.error) / smallest + std::fabs(q) * 0x1p-52) * (1 + 0x1p-20)};
+}
+
+class Triangle {
+ public:
+  using EdgeSet = unsigned;  // bit i: edge i
+  // False if D = 0 (C1). Vertices are finite (B1).
+  bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, Rungs* rungs = nullptr) {
+    vertex_[0] = v0, vertex_[1] = v1, vertex_[2] = v2;
+    for (int i = 0; i < 3; ++i) edge_[i] = EdgeFunction(vertex_[(i + 1) % 3], vertex_[(i + 2) % 3]);
+    determinant_sign_ = determinant_sign(edge_[0], v0, rungs);
+    determinant_known_ = false;
+    return determinant_sign_ != 0;
+  }
+
+  // The sign of D (F1).
+  int determinant() const { return determinant_sign_; }
+
+  const Vertex& vertex(int i) const { return vertex_[i]; }
+  const EdgeFunction& edge(int i) const { return edge_[i]; }  // from vertex i + 1 to vertex i + 2, modulo 3
+
+  // C2, C3 and C5.
+  bool covers(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const {
+    for (const EdgeFunction& edge : edge_) {
+      int sign = edge.sign(p, rungs);
+      if (sign == 0) sign = tie_sign(edge, shift, determinant_sign_);
+      if (sign != determinant_sign_) return false;
+    }
+    return true;
+  }
+
+  // Depth at p as I4 stores it; false if depth clipping removes the fragment (I5).
+  bool depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs = nullptr) {
+    const Approximation q = approximate_depth(p);
+    if (mode == DepthMode::clip) {
+      const double low = q.value - q.error, high = q.value + q.error;
+      if (high < 0 || low > 1) {
+        count(rungs, &Rungs::values_by_filter);
+        return false;
+      }
+      if (!(low > 0 && high < 1) && !inside_unit_range(exact_depth_numerator(p), rungs)) return false;
+    }
+    *stored = rounded_depth(p, q, rungs);
+    if (mode == DepthMode::clamp) *stored = *stored < 0 ? 0.0f : *stored > 1 ? 1.0f : *stored;  // rounding is monotonic
+    return true;
+  }
+
+  // The depth at p (I1), whether or not the triangle covers p, as I4 rounds it. D is not 0.
+  float rounded_depth(SamplePosition p, Rungs* rungs = nullptr) {
+    return rounded_depth(p, approximate_depth(p), rungs);
+  }
+
+  // The sign of z(p) - bound, exactly, for a bound of 0 or 1. D is not 0.
+  int compare_depth(SamplePosition p, double bound, Rungs* rungs = nullptr) {
+    const Approximation q = approximate_depth(p);
+    const bool above = q.value - q.error > bound, below = q.value + q.error < bound;  // rounding is monotonic
+    if (above || below) {
+      count(rungs, &Rungs::values_by_filter);
+      return above ? 1 : -1;
+    }
+    count(rungs, &Rungs::values_by_expansion);
+    return minus_multiple_of_determinant(exact_depth_numerator(p), bound).sign() * determinant_sign_;
+  }
+
+  // Z_0 E_0 + Z_1 E_1 + Z_2 E_2 at p, exactly: the depth there is this over D. p may also be a corner of the guard
+  // band of G1: no bound is involved.
+  Expansion<60> exact_depth_numerator(SamplePosition p) const {
+    return exact_weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, p);
+  }
+
+  // D itself.
+  const Expansion<12>& exact_determinant_value() {
+    know_determinant();
+    return determinant_;
+  }
+
+  // Is the sum of the E_i of D's sign at p? (M1: then p is seen in the triangle's plane in front of the eye.)
+  bool plane_in_front(SamplePosition p) const {
+    Approximation e[3];
+    evaluate_edges(p, e);
+    const Approximation sum = weighted_sum({1, 1, 1}, e);
+    if (std::fabs(sum.value) > sum.error) return sign_of(sum.value) == determinant_sign_;
+    return exact_weighted_sum({1, 1, 1}, p).sign() == determinant_sign_;
+  }
+
+  // An attribute at p as I4 stores it, from its values at the three vertices. For perspective, the sum of the E_i is
+  // not 0 at p: it is not at a covered sample, nor where plane_in_front().
+  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs = nullptr) {
+    if (interpolation == Interpolation::flat) return value_of_vertex_0(u);
+    if (interpolation == Interpolation::perspective) {
+      return weighted_mean({u[0], u[1], u[2]}, {1, 1, 1}, p, kAllEdges, rungs);
+    }
+    const double w[3] = {static_cast<double>(u[0]) * vertex_[0].w, static_cast<double>(u[1]) * vertex_[1].w,
+                         static_cast<double>(u[2]) * vertex_[2].w};  // 48 bits, exact
+    Approximation e[3];
+    evaluate_edges(p, e);
+    const Approximation q = quotient(weighted_sum(w, e), approximate_determinant());
+    return rounded(
+        q, [&] { return round_quotient(exact_weighted_sum(w, p), determinant_); }, rungs);
+  }
+
+  // The edges whose E_i counts at p under Grid (G2): it has the sign of D and is not 0. None if D = 0.
+  EdgeSet right_edges(SamplePosition p, Rungs* rungs = nullptr) const {
+    EdgeSet set = 0;
+    for (int i = 0; i < 3; ++i) {
+      if (determinant_sign_ != 0 && edge_[i].sign(p, rungs) == determinant_sign_) set |= 1u << i;
+    }
+    return set;
+  }
+
+  // An attribute at p as G2 has it: from the E_i that count, and the value of vertex 0 where their sum is 0.
+  float attribute_of_right_edges(SamplePosition p, const float (&u)[3], Interpolation interpolation,
+                                 Rungs* rungs = nullptr) const {
+    const EdgeSet set = right_edges(p, rungs);
+    if (interpolation == Interpolation::flat || set == 0) return value_of_vertex_0(u);
+    if (interpolation == Interpolation::perspective) {
+      return weighted_mean({u[0], u[1], u[2]}, {1, 1, 1}, p, set, rungs);
+    }
+    const double w[3] = {vertex_[0].w, vertex_[1].w, vertex_[2].w};
+    if (weighted_sum_is_zero(w, p, set)) return value_of_vertex_0(u);
+    return weighted_mean({u[0] * w[0], u[1] * w[1], u[2] * w[2]}, w, p, set, rungs);  // 48 bits, exact
+  }
+
+ private:
+  static constexpr EdgeSet kAllEdges = 7;
+
+  static float value_of_vertex_0(const float (&u)[3]) {
+    return u[0] + 0.0f;  // -0 becomes +0 (I4)
+  }
+
+  // The E_i at p; 0 for edges outside the set.
+  void evaluate_edges(SamplePosition p, Approximation (&e)[3], EdgeSet set = kAllEdges) const {
+    for (int i = 0; i < 3; ++i) {
+      e[i] = {0, 0};
+      if ((set >> i & 1u) != 0) e[i].value = edge_[i].value(p, &e[i].error);
+    }
+  }
+
+  Expansion<60> exact_weighted_sum(const double (&w)[3], SamplePosition p, EdgeSet set = kAllEdges) const {
+    Expansion<60> sum;
+    for (int i = 0; i < 3; ++i) {
+      if ((set >> i & 1u) != 0) sum.add_scaled(edge_[i].exact_value(p), w[i]);
+    }
+    return sum;
+  }
+
+  bool weighted_sum_is_zero(const double (&w)[3], SamplePosition p, EdgeSet set) const {
+    Approximation e[3];
+    evaluate_edges(p, e, set);
+    const Approximation sum = weighted_sum(w, e);
+    return !(std::fabs(sum.value) > sum.error) && exact_weighted_sum(w, p, set).sign() == 0;
+  }
+
+  // The sum of numerator[i] E_i over that of denominator[i] E_i, as I4 stores it. The latter is not 0.
+  float weighted_mean(const double (&numerator)[3], const double (&denominator)[3], SamplePosition p, EdgeSet set,
+                      Rungs* rungs = nullptr) const {
+    Approximation e[3];
+    evaluate_edges(p, e, set);
+    const Approximation q = quotient(weighted_sum(numerator, e), weighted_sum(denominator, e));
+    const auto exact = [&] {
+      return round_quotient(exact_weighted_sum(numerator, p, set), exact_weighted_sum(denominator, p, set));
+    };
+    return rounded(q, exact, rungs);
+  }
+
+  Approximation approximate_determinant() {
+    know_determinant();
+    return {determinant_estimate_, std::fabs(determinant_estimate_) * 0x1p-50};
+  }
+
+  Approximation approximate_depth(SamplePosition p) {
+    Approximation e[3];
+    evaluate_edges(p, e);
+    return quotient(weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, e), approximate_determinant());
+  }
+
+  float rounded_depth(SamplePosition p, Approximation q, Rungs* rungs = nullptr) {
+    return rounded(
+        q, [&] { return round_quotient(exact_depth_numerator(p), exact_determinant_value()); }, rungs);
+  }
+
+  // D itself is needed for values only; once per triangle.
+  void know_determinant() {
+    if (determinant_known_) return;
+    determinant_ = exact_determinant(vertex_[0], vertex_[1], vertex_[2]);
+    determinant_estimate_ = determinant_.estimate();
+    determinant_known_ = true;
+  }
+
+  // 0 <= numerator / D <= 1, exactly (I5).
+  bool inside_unit_range(const Expansion<60>& numerator, Rungs* rungs = nullptr) const {
+    count(rungs, &Rungs::values_by_expansion);
+    if (numerator.sign() * determinant_sign_ < 0) return false;
+    return minus_multiple_of_determinant(numerator, 1).sign() * determinant_sign_ <= 0;
+  }
+
+  // numerator - bound D for a bound of 0 or 1.
+  Expansion<72> minus_multiple_of_determinant(const Expansion<60>& numerator, double bound) const {
+    Expansion<72> rest;
+    for (int i = 0; i < numerator.size(); ++i) rest.add(numerator.term(i));
+    for (int i = 0; i < determinant_.size(); ++i) rest.add(-bound * determinant_.term(i));
+    return rest;
+  }
+
+  // The float32 of I4: by the filter if it can tell, else by `exact`.
+  template <typename Exact>
+  static float rounded(Approximation q, Exact exact, Rungs* rungs = nullptr) {
+    float result;
+    if (round_interval(q.value - q.error, q.value + q.error, &result)) {
+      count(rungs, &Rungs::values_by_filter);
+      return result;
+    }
+    count(rungs, &Rungs::values_by_expansion);
+    return exact();
+  }
+
+  Vertex vertex_[3];
+  EdgeFunction edge_[3];  // edge i lies opposite vertex i
+  int determinant_sign_ = 0;
+  bool determinant_known_ = false;
+  double determinant_estimate_ = 0;
+  Expansion<12> determinant_;
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/grid.hpp
+//
+// Grid mode (semantics.md, section 6): a triangle clipped to the guard band and projected, its corners rounded once to
+// the fixed-point grid, and everything that is then asked of it.
+
+
+
+namespace surefill_reference {
+
+constexpr double kGuardBand = kMaxTargetSize + 1;  // g of G1: |X| <= g W and |Y| <= g W
+
+// An estimate of a coordinate in units of the grid, |t| < 2^27, is a rounded value's neighbour only within this.
+inline double snap_error() {
+  return 0x1p-21;
+}
+
+// c / w, which lies in [-g, g], rounded to the grid as G1 says: a position in pixels. w > 0.
+double snapped_position(float c, float w, int offset, const Grid& grid, Rungs* rungs = nullptr);
+
+// A corner of the clipped triangle: homogeneous coordinates, exact, W > 0 once all four planes have been applied. Sums
+// of four products of a float32 or a 39-bit difference of floats by a float32, so at most eight terms.
+struct GuardCorner {
+  Expansion<8> x, y, z, w;
+  int guard_x = 0, guard_y = 0;  // not both 0: the corner (guard_x g, guard_y g) of the band itself; x, y, w say so, z
+                                 // is not set, for there Z/W is I1
+  int line = 0;  // which line leads to the next corner: 0..2 the triangle's edge i, 3 + p the guard plane p
+};
+
+// The part of a triangle within the guard band. Each of the four planes adds at most one corner.
+struct GuardPolygon {
+  GuardCorner corner[7];
+  int corners = 0;
+};
+
+// The smallest and the largest Z/W among the corners of a polygon (G2): rounded as I4 says, and compared exactly.
+struct DepthRange {
+  float low, high;
+  bool low_below_zero, high_below_zero, low_above_one, high_above_one;
+};
+
+// Does the hull of a triangle's vertices contain the eye, where D = 0 (G1)?
+bool hull_contains_eye(const Triangle& triangle);
+
+class SnappedTriangle {
+ public:
+  // False if the triangle's hull contains the eye (G1). Vertices are finite (B1). The grid is valid.
+  bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs = nullptr);
+
+  // The clipped polygon on the grid: positions in pixels, exact.
+  int corners() const { return polygon_.corners; }
+  SamplePosition corner(int n) const {
+    return {static_cast<double>(point_[n].x) / units_per_pixel_, static_cast<double>(point_[n].y) / units_per_pixel_};
+  }
+  // What depth is clamped to (G2).
+  const DepthRange& depth_range() {
+    know_depth_range();
+    return depth_range_;
+  }
+
+  // The part of `limits` with a sample in the box of the snapped polygon. Offsets as for screen_box.
+  PixelBox box(PixelBox limits, double least_offset, double largest_offset) const;
+
+  // N(p) of G1: -1, 0 or 1.
+  int winding(SamplePosition p, TieShift shift) const { return winding(point_, polygon_.corners, p, shift); }
+  // Does the triangle of corners 0, n and n + 1 cover p?
+  bool fan_covers(int n, SamplePosition p, TieShift shift) const {
+    const Point triangle[3] = {point_[0], point_[n], point_[n + 1]};
+    return winding(triangle, 3, p, shift) != 0;
+  }
+
+  // Depth at p as G2 and I4 have it; false if depth clipping removes the fragment (I5).
+  bool depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs = nullptr);
+
+  // Does an E_i count at p (G2)? If not, or if D = 0, the values at p are those of vertex 0.
+  bool has_weights(SamplePosition p, Rungs* rungs = nullptr) const { return triangle_.right_edges(p, rungs) != 0; }
+
+  // An attribute at p as G2 and I4 have it, from its values at the three vertices.
+  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs = nullptr) {
+    return triangle_.attribute_of_right_edges(p, u, interpolation, rungs);
+  }
+
+ private:
+  // In units of 2^-(bits + 4) pixels, in which grid positions and samples are integers. Below 2^30 + 2^17 in magnitude.
+  struct Point {
+    std::int64_t x, y;
+  };
+
+  int winding(const Point* corner, int corners, SamplePosition p, TieShift shift) const;
+  void know_depth_range();
+
+  Triangle triangle_;  // unsnapped
+  GuardPolygon polygon_;
+  Point point_[7];  // the corners of polygon_, snapped
+  double units_per_pixel_ = 1;
+  bool depth_range_known_ = false;
+  DepthRange depth_range_{};
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/exact_draw.hpp
+//
+// A triangle of a draw, as its mode has it: what it covers, and the values there, by the scalar arithmetic of Triangle
+// and SnappedTriangle. All that the reference path draws with, and what the vector code asks where it cannot tell.
+// Compiled once, and not for each instruction set; it keeps the triangle that was asked about last.
+
+
+
+namespace surefill_reference {
+
+// The sign of D of a triangle (C1).
+int orientation(const Draw& draw, std::uint32_t position, Rungs* rungs = nullptr);
+
+// Does the triangle, whose D is 0, cover nothing? Under Grid it does not always (G1).
+bool is_degenerate(const Draw& draw, std::uint32_t position);
+
+class ExactDraw {
+ public:
+  // The triangle at a position in the draw, whose vertices are finite (B1). False if it covers nothing by C1 or, under
+  // Grid, by G1. Everything below is about it.
+  bool use(const Draw& draw, std::uint32_t position, Rungs* rungs = nullptr);
+
+  // The pixels of `limits` that it can cover. Sample offsets within a pixel lie in [least_offset, largest_offset].
+  PixelBox box(const PixelBox& limits, double least_offset, double largest_offset) const;
+
+  // Coverage as attributes have it, without culling: C2, C3, C5; under Grid G1, N != 0.
+  bool covers(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const { return facing(p, shift, rungs) != 0; }
+  // Coverage as M2 counts it, but for scissor and depth clip: covered, and not culled (F2).
+  bool draws(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const {
+    const int side = facing(p, shift, rungs);
+    return side != 0 && !culls(*draw_, side);
+  }
+  bool draws_square(int x, int y, Rungs* rungs = nullptr) const;  // M4
+
+  // Depth as it is stored; false if depth clipping removes the fragment: I1, I5; under Grid G2.
+  bool depth(SamplePosition p, float* stored, Rungs* rungs = nullptr);
+  // Is there a value at p, covered or not (M1)?
+  bool has_values(SamplePosition p) const;
+  // Where the attributes of pixel (x, y) are taken, in which the triangle is seen (M1).
+  SamplePosition place_of_attributes(const Target& target, int x, int y, TieShift shift) const;
+  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs = nullptr);
+
+  const Triangle& triangle() const { return triangle_; }  // without Grid only
+  SnappedTriangle& snapped() { return snapped_; }         // under Grid only
+
+ private:
+  // 0 if it does not cover p; else the sign of D or, under Grid, of N(p).
+  int facing(SamplePosition p, TieShift shift, Rungs* rungs) const {
+    if (draw_->grid) return snapped_.winding(p, shift);
+    return triangle_.covers(p, shift, rungs) ? triangle_.determinant() : 0;
+  }
+
+  const Draw* draw_ = nullptr;
+  std::uint32_t position_ = 0;
+  bool covers_something_ = false;
+  Triangle triangle_;        // without Grid
+  SnappedTriangle snapped_;  // and with Grid
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/conservative.hpp
+//
+// Conservative rasterization (M4): whether the closed square of a pixel meets, or lies in, the closed set T of all real
+// points where no E_i / D is negative. Needs no arithmetic beyond the signs of the E_i at the square's corners.
+
+
+namespace surefill_reference {
+
+// The closed square of pixel (x, y) against a triangle with D != 0.
+class PixelSquare {
+ public:
+  PixelSquare(const Triangle& triangle, int x, int y, Rungs* rungs = nullptr) : triangle_(triangle), x_(x), y_(y) {
+    const double left = x, right = x + 1, top = y, bottom = y + 1;
+    const SamplePosition corner[4] = {{left, top}, {right, top}, {right, bottom}, {left, bottom}};
+    for (int i = 0; i < 3; ++i) {
+      for (int c = 0; c < 4; ++c) {
+        sign_[i][c] = triangle.edge(i).sign(corner[c], rungs) * triangle.determinant();
+      }
+    }
+  }
+
+  // Inner: T is convex, so its corners decide.
+  bool inside() const {
+    for (const auto& of_edge : sign_) {
+      for (const int sign : of_edge) {
+        if (sign < 0) return false;
+      }
+    }
+    return true;
+  }
+
+  // Over, where some W_i > 0; where none is, T is empty, and otherwise it is not (a vertex in front of the eye projects
+  // into it). Helly's theorem in the plane: the square and the half-planes H_i = {E_i / D >= 0} have a common point if
+  // any three of these four convex sets have one. The three half-planes do.
+  bool touched() const { return pair_meets(0, 1) && pair_meets(1, 2) && pair_meets(2, 0); }
+
+ private:
+  // Do H_i, H_j and the square meet, j = i + 1 modulo 3? Two half-planes that meet do so in an unbounded set, so if
+  // they meet the square, they do on one of its sides. If no corner lies in both, that means: one end of the side lies
+  // in H_i alone, the other in H_j alone, and the point between them where E_i = 0 lies in H_j.
+  bool pair_meets(int i, int j) const {
+    for (int c = 0; c < 4; ++c) {
+      if (sign_[i][c] >= 0 && sign_[j][c] >= 0) return true;
+    }
+    for (int side = 0; side < 4; ++side) {
+      if (crossing_is_inside(i, side)) return true;
+    }
+    return false;
+  }
+
+  // Does line i cross the side from corner p to corner q between them, at a point of H_j, j = i + 1 and k = i + 2?
+  //
+  // The point is |E_i(q)| p + |E_i(p)| q. E_i has opposite signs at p and q, so the value of E_j there is the sign of
+  // E_i(p) times E_i(p) E_j(q) - E_i(q) E_j(p), up to a positive factor. That difference is D m_k . (p x q), because
+  // (m_j x m_k) x (m_k x m_i) = D m_k. So E_j / D has the sign of E_i(p) m_k . (p x q).
+  bool crossing_is_inside(int i, int side) const {
+    const int at_p = sign_[i][side], at_q = sign_[i][(side + 1) % 4];
+    return at_p * at_q < 0 && at_p * triangle_.determinant() * vertex_side((i + 2) % 3, side) >= 0;
+  }
+
+  // The sign of m_k . (p x q) for the corners p and q of a side: W_k times the distance of vertex k from the side's
+  // line, inwards. Both sides of each comparison are exact: 24 bits, and 24 by 15 bits.
+  int vertex_side(int k, int side) const {
+    const Vertex& v = triangle_.vertex(k);
+    const double x = v.x, y = v.y, w = v.w;
+    switch (side) {
+      case 0:
+        return sign_of_difference(y, y_ * w);
+      case 1:
+        return sign_of_difference((x_ + 1) * w, x);
+      case 2:
+        return sign_of_difference((y_ + 1) * w, y);
+      default:
+        return sign_of_difference(x, x_ * w);
+    }
+  }
+
+  static int sign_of_difference(double a, double b) { return a > b ? 1 : a < b ? -1 : 0; }
+
+  const Triangle& triangle_;
+  double x_, y_;
+  int sign_[3][4];  // of E_i / D at the corners: top left, top right, bottom right, bottom left
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/build_check.cpp
+namespace surefill_reference {
+namespace {
+
+// The forms that compilers contract or reorder. Not inlined: it needs the engine's floating-point state.
+template <typename T>
+[[gnu::noinline]] bool holds() {
+  ContractionProbe<T> p;
+  const T x0 = p.x, x1 = p.x, x2 = p.x, x3 = p.x, square = p.square, one = p.one, small = p.small;
+  const T subtracted = x0 * x0 - square;  // all are 0 as they are written
+  const T negated = square - x1 * x1;
+  const T added = x2 * x2 + -square;
+  const T of_products = x3 * x3 - one * square;
+  const T reordered = (one + small) - one;
+  return subtracted == 0 && negated == 0 && added == 0 && of_products == 0 && reordered == 0;
+}
+
+}  // namespace
+
+bool is_exact_build() {
+  static const bool exact = [] {
+    const FloatEnvironment environment;
+    return holds<float>() && holds<double>();
+  }();
+  return exact;
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/surefill.cpp
+//
+// The public calls: check the arguments, set the floating-point state, take the path.
+
+
+namespace surefill_reference {
+namespace {
+
+// The standard sample locations of Direct3D 11 and Vulkan (S4), in 1/16 pixel.
+constexpr SampleLocation kLocations1[] = {{8, 8}};
+constexpr SampleLocation kLocations2[] = {{12, 12}, {4, 4}};
+constexpr SampleLocation kLocations4[] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};
+constexpr SampleLocation kLocations8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
+constexpr SampleLocation kLocations16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
+                                           {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
+
+// The caller's code, as the engine calls it: in the caller's floating-point state, on whichever thread.
+struct CallersCode {
+  FloatEnvironment& environment;
+  Executor executor;
+  CoverageVisitor visitor;
+
+  Options with_executor(Options options) {
+    if (executor.run != nullptr) options.executor = {run_tasks, this};
+    return options;
+  }
+
+  static void run_tasks(void* context, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
+    CallersCode& own = *static_cast<CallersCode*>(context);
+    own.environment.leave_for([&] { own.executor.run(own.executor.context, items, task, argument); });
+  }
+  static void visit_blocks(void* context, std::span<const CoverageBlock> blocks) {
+    CallersCode& own = *static_cast<CallersCode*>(context);
+    own.environment.leave_for([&] { own.visitor.visit(own.visitor.context, blocks); });
+  }
+};
+
+// Neither is inlined: they need the engine's floating-point state.
+[[gnu::noinline]] Status draw(const Target& target, std::span<const Draw> draws,
+                              [[maybe_unused]] const Options& options, Diagnostics& diagnostics) {
+  diagnostics.path = "reference";
+  return reference::render(target, draws, diagnostics.rungs);
+}
+
+[[gnu::noinline]] Status visit(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                               [[maybe_unused]] const Options& options, Diagnostics& diagnostics) {
+  diagnostics.path = "reference";
+  return reference::visit_coverage(target, draws, visitor, diagnostics.rungs);
+}
+
+// What is asked for beside the image.
+[[gnu::noinline]] void report(std::span<const Draw> draws, Statistics* statistics, const Options& options,
+                              const Diagnostics& diagnostics) {
+  if (statistics != nullptr) *statistics = statistics_of(draws);
+  if (options.diagnostics != nullptr) *options.diagnostics = diagnostics;
+}
+
+}  // namespace
+
+Context::Context() noexcept = default;
+
+Context::~Context() {
+}
+
+SampleLocation sample_location(int samples, int n) noexcept {
+  if (n < 0 || n >= samples) n = 0;
+  switch (samples) {
+    case 2:
+      return kLocations2[n];
+    case 4:
+      return kLocations4[n];
+    case 8:
+      return kLocations8[n];
+    case 16:
+      return kLocations16[n];
+    default:
+      return kLocations1[0];
+  }
+}
+
+Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics) noexcept {
+  return render(target, draws, statistics, {});
+}
+
+Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
+              const Options& options) noexcept {
+  if (!is_exact_build()) return Status::bad_build;
+  if (const Status status = check_call(target, draws, statistics, options); status != Status::ok) return status;
+  FloatEnvironment environment;
+  CallersCode callers{environment, options.executor, {}};
+  Diagnostics diagnostics;
+  const Status status = draw(target, draws, callers.with_executor(options), diagnostics);
+  if (status == Status::ok) report(draws, statistics, options, diagnostics);
+  return status;
+}
+
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      Statistics* statistics, const Options& options) noexcept {
+  if (!is_exact_build()) return Status::bad_build;
+  if (const Status status = check_call(target, draws, statistics, options); status != Status::ok) return status;
+  if (wanted_outputs(target).depth || !target.count.empty()) return Status::target_outputs;
+  if (visitor.visit == nullptr) return Status::visitor;
+  FloatEnvironment environment;
+  CallersCode callers{environment, options.executor, visitor};
+  Diagnostics diagnostics;
+  const Status status =
+      visit(target, draws, {CallersCode::visit_blocks, &callers}, callers.with_executor(options), diagnostics);
+  if (status == Status::ok) report(draws, statistics, options, diagnostics);
+  return status;
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/arguments.cpp
+//
+// B2: every argument is checked before anything is written.
+
+
+
+namespace surefill_reference {
+namespace {
+
+constexpr std::uint64_t kLargestIndex = std::numeric_limits<std::uint32_t>::max();
+
+template <typename T>
+bool null_but_not_empty(std::span<T> s) {
+  return s.data() == nullptr && !s.empty();
+}
+
+// Empty (not asked for), or a buffer of exactly `size` elements. Sizes are computed in 64 bits, whatever std::size_t has.
+template <typename T>
+bool fits(std::span<T> buffer, std::uint64_t size) {
+  return buffer.empty() || (buffer.data() != nullptr && buffer.size() == size);
+}
+
+bool size_ok(const Target& target) {
+  const auto good = [](int size) { return size >= 1 && size <= kMaxTargetSize; };
+  return good(target.width) && good(target.height);
+}
+
+bool samples_ok(const Target& target) {
+  const int n = target.samples;
+  return n == 1 || n == 2 || n == 4 || n == 8 || n == 16;
+}
+
+// Of a target whose size and samples are good: at most 2^32.
+std::uint64_t samples_of(const Target& target) {
+  return static_cast<std::uint64_t>(target.width) * static_cast<std::uint64_t>(target.height) *
+         static_cast<std::uint64_t>(target.samples);
+}
+
+Status validate_target(const Target& target, Outputs& outputs) {
+  if (!size_ok(target)) return Status::target_size;
+  if (!samples_ok(target)) return Status::target_samples;
+  const std::uint64_t total = samples_of(target);
+  if (!fits(target.count, total)) return Status::target_count;
+  if (!fits(target.index, total)) return Status::target_index;
+  if (!fits(target.depth, total)) return Status::target_depth;
+  if (!fits(target.barycentrics, 3 * total)) return Status::target_barycentrics;
+  if (null_but_not_empty(target.attributes) || target.attributes.size() > kMaxAttributes)
+    return Status::target_attributes;
+  for (const AttributeTarget& attribute : target.attributes) {
+    if (attribute.components < 1 || attribute.components > kMaxComponents ||
+        !fits(attribute.values, attribute.components * total)) {
+      return Status::target_attributes;
+    }
+  }
+  if (!fits(target.initial_depth, total)) return Status::target_initial_depth;
+  if (target.depth_test > DepthTest::greater) return Status::target_depth_test;
+  if (target.attribute_location > AttributeLocation::centroid) return Status::target_attribute_location;
+
+  // The initial depth may be the depth buffer itself, but not overlap it otherwise.
+  const bool same = !target.depth.empty() && target.initial_depth.data() == target.depth.data();
+  const bool apart = outputs.add_buffers(target) && (same || !outputs.touched_by(Bytes(target.initial_depth))) &&
+                     !outputs.touched_by(Bytes(target.attributes)) && !outputs.touched_by(Bytes::of(&target));
+  return apart ? Status::ok : Status::target_overlap;
+}
+
+Status validate_attributes(const Target& target, const Draw& draw) {
+  if (null_but_not_empty(draw.attributes) || draw.attributes.size() > kMaxAttributes ||
+      draw.attributes.size() < target.attributes.size()) {
+    return Status::draw_attributes;
+  }
+  for (std::size_t k = 0; k < draw.attributes.size(); ++k) {
+    const AttributeArray& attribute = draw.attributes[k];
+    if (attribute.components < 1 || attribute.components > kMaxComponents) return Status::draw_attributes;
+    if (k < target.attributes.size() && attribute.components != target.attributes[k].components) {
+      return Status::draw_attributes;
+    }
+    if (attribute.stride != 0 && attribute.stride < attribute.components) return Status::draw_attributes;
+    const std::uint64_t stride = stride_of(attribute);
+    // Below 2^32 vertices and strides, so nothing overflows.
+    const std::uint64_t needed = draw.vertices.empty() ? 0 : (draw.vertices.size() - 1) * stride + attribute.components;
+    if (null_but_not_empty(attribute.values) || attribute.values.size() < needed) return Status::draw_attributes;
+    if (attribute.interpolation > Interpolation::flat) return Status::draw_attribute_interpolation;
+  }
+  return Status::ok;
+}
+
+// B5. Without an early end, so that it is vector code.
+bool has_no_triangle(std::span<const std::uint32_t> identifiers) {
+  bool found = false;
+  for (const std::uint32_t identifier : identifiers) found |= identifier == kNoTriangle;
+  return found;
+}
+
+Status validate_draw(const Target& target, const Draw& draw, const Outputs& outputs) {
+  const std::uint64_t vertices = draw.vertices.size(), triangles = triangles_of(draw);
+  if (null_but_not_empty(draw.vertices) || vertices > kLargestIndex) return Status::draw_vertices;
+  if (null_but_not_empty(draw.indices) || draw.indices.size() % 3 != 0 || triangles >= kLargestIndex) {
+    return Status::draw_indices;
+  }
+  if (!draw.identifiers.empty() && (draw.identifiers.data() == nullptr || draw.identifiers.size() != triangles)) {
+    return Status::draw_identifiers;
+  }
+  if (has_no_triangle(draw.identifiers)) return Status::draw_identifiers;
+  if (draw.identifiers.empty() && triangles > kLargestIndex - draw.first_index) return Status::draw_first_index;
+  if (const Status status = validate_attributes(target, draw); status != Status::ok) return status;
+  if (draw.fill_rule > FillRule::open || (draw.grid && !moves_samples(draw.fill_rule))) return Status::draw_fill_rule;
+  if (draw.front_face > FrontFace::counter_clockwise) return Status::draw_front_face;
+  if (draw.cull > Cull::back) return Status::draw_cull;
+  if (draw.depth_mode > DepthMode::clamp) return Status::draw_depth_mode;
+  if (draw.grid) {
+    const Grid& grid = *draw.grid;
+    const auto offset_ok = [](int offset) { return offset >= 0 && offset <= 15; };
+    if (grid.bits < 0 || grid.bits > 12 || !offset_ok(grid.offset_x) || !offset_ok(grid.offset_y) ||
+        grid.rounding > GridRounding::truncate) {
+      return Status::draw_grid;
+    }
+  }
+  if (draw.conservative > Conservative::inner) return Status::draw_conservative;
+  if (draw.conservative != Conservative::none &&
+      (wanted_outputs(target).depth || target.samples != 1 || draw.depth_mode != DepthMode::none || draw.grid)) {
+    return Status::draw_conservative;
+  }
+  bool apart = !outputs.touched_by(Bytes(draw.vertices)) && !outputs.touched_by(Bytes(draw.indices)) &&
+               !outputs.touched_by(Bytes(draw.identifiers)) && !outputs.touched_by(Bytes(draw.attributes));
+  for (const AttributeArray& attribute : draw.attributes) apart = apart && !outputs.touched_by(Bytes(attribute.values));
+  if (!apart) return Status::target_overlap;
+  std::uint32_t largest = 0;
+  for (const std::uint32_t index : draw.indices) largest = std::max(largest, index);
+  if (!draw.indices.empty() && largest >= draw.vertices.size()) return Status::draw_index_out_of_range;
+  return Status::ok;
+}
+
+Status validate_frame(const Target& target, std::span<const Draw> draws, Outputs& outputs) {
+  if (const Status status = validate_target(target, outputs); status != Status::ok) return status;
+  if (null_but_not_empty(draws)) return Status::draws;
+  if (outputs.touched_by(Bytes(draws))) return Status::target_overlap;
+  for (const Draw& draw : draws) {
+    if (const Status status = validate_draw(target, draw, outputs); status != Status::ok) return status;
+  }
+  return Status::ok;
+}
+
+}  // namespace
+
+std::size_t sample_total(const Target& target) noexcept {
+  if (!size_ok(target) || !samples_ok(target)) return 0;
+  const std::uint64_t largest = std::numeric_limits<std::size_t>::max();
+  return static_cast<std::size_t>(std::min(samples_of(target), largest));  // no buffer has so many elements
+}
+
+Status validate(const Target& target, std::span<const Draw> draws) noexcept {
+  Outputs outputs;
+  return validate_frame(target, draws, outputs);
+}
+
+Status check_call(const Target& target, std::span<const Draw> draws, const Statistics* statistics,
+                  const Options& options) noexcept {
+  if (options.threads < 1 || options.threads > kMaxThreads) return Status::options_threads;
+  if (options.path > Path::reference) return Status::options_path;
+  Outputs outputs;
+  outputs.add(Bytes::of(statistics));
+  if (!outputs.add(Bytes::of(options.diagnostics))) return Status::target_overlap;
+  if (const Status status = validate_frame(target, draws, outputs); status != Status::ok) return status;
+  const bool touched = outputs.touched_by(Bytes::of(&options)) || outputs.touched_by(Bytes::of(options.context));
+  return touched ? Status::target_overlap : Status::ok;
+}
+
+const char* status_text(Status status) noexcept {
+  switch (status) {
+    case Status::ok:
+      return "ok";
+    case Status::out_of_memory:
+      return "out of memory";
+    case Status::target_size:
+      return "the target's width or height is outside 1..16384";
+    case Status::target_samples:
+      return "the target's samples are not 1, 2, 4, 8 or 16";
+    case Status::target_count:
+      return "the count buffer's size is not that of the target";
+    case Status::target_index:
+      return "the index buffer's size is not that of the target";
+    case Status::target_depth:
+      return "the depth buffer's size is not that of the target";
+    case Status::target_barycentrics:
+      return "the barycentrics buffer's size is not 3 floats for each sample of the target";
+    case Status::target_attributes:
+      return "an attribute target has components outside 1..4 or a wrong size, or there are over 16";
+    case Status::target_initial_depth:
+      return "the initial depth's size is not that of the target";
+    case Status::target_overlap:
+      return "an output overlaps another one, or a buffer, list or struct that the call reads";
+    case Status::target_depth_test:
+      return "the depth test is not an enumerator of DepthTest";
+    case Status::target_attribute_location:
+      return "the attribute location is not an enumerator of AttributeLocation";
+    case Status::draws:
+      return "the list of draws is null but not empty";
+    case Status::draw_vertices:
+      return "a draw's vertex buffer is null or too large";
+    case Status::draw_indices:
+      return "a draw's indices are null, no multiple of 3, or too many";
+    case Status::draw_index_out_of_range:
+      return "a draw has an index that names no vertex";
+    case Status::draw_identifiers:
+      return "a draw's identifiers are neither empty nor one for each triangle, or one is 2^32 - 1";
+    case Status::draw_first_index:
+      return "a draw's first index plus its triangles exceed 2^32 - 1";
+    case Status::draw_attributes:
+      return "a draw's attribute arrays are too few, too short, or have other components than the target";
+    case Status::draw_attribute_interpolation:
+      return "an attribute's interpolation is not an enumerator of Interpolation";
+    case Status::draw_fill_rule:
+      return "a draw's fill rule is not an enumerator of FillRule, or is closed or open with a grid";
+    case Status::draw_front_face:
+      return "a draw's front face is not an enumerator of FrontFace";
+    case Status::draw_cull:
+      return "a draw's culling is not an enumerator of Cull";
+    case Status::draw_depth_mode:
+      return "a draw's depth mode is not an enumerator of DepthMode";
+    case Status::draw_conservative:
+      return "a draw's conservative mode is not an enumerator of Conservative, or the frame has more than counts, "
+             "several samples, a depth mode or a grid";
+    case Status::draw_grid:
+      return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding";
+    case Status::viewport:
+      return "a number of the viewport is not finite, or an enumerator is unknown";
+    case Status::options_threads:
+      return "the number of threads is outside 1..256";
+    case Status::options_path:
+      return "the path is not an enumerator of Path";
+    case Status::query_boxes:
+      return "the boxes or rectangles of the query are null or hold a number that is not finite";
+    case Status::query_answers:
+      return "the answers of the query are null or not one for each box";
+    case Status::visitor:
+      return "the visitor's function is null";
+    case Status::bad_build:
+      return "the library was compiled with options that break exact arithmetic, such as -ffast-math or FMA "
+             "contraction";
+    case Status::to_pixel_vertices:
+      return "to_pixel's vertices or results are null, not equally many, or overlap what the call reads";
+    case Status::target_outputs:
+      return "the target of visit_coverage asks for an output";
+  }
+  return "unknown status";
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/grid.cpp
+namespace surefill_reference {
+namespace {
+
+// The planes of the guard band: gW - X, gW + X, gW - Y, gW + Y, in the order in which they clip. Positive is inside.
+constexpr int kPlanes = 4;
+constexpr bool bounds_x(int plane) {
+  return plane < 2;
+}
+constexpr double outwards(int plane) {
+  return plane % 2 == 0 ? 1 : -1;
+}
+
+// 39 and 24 bits, so that both sides are exact.
+bool inside_guard_band(const Vertex& v) {
+  const double x = v.x, y = v.y, limit = kGuardBand * static_cast<double>(v.w);
+  return std::fabs(x) <= limit && std::fabs(y) <= limit;
+}
+
+// A plane's function at a vertex of the triangle.
+Expansion<2> plane_value(int plane, const Vertex& v) {
+  Expansion<2> sum;
+  sum.add(kGuardBand * static_cast<double>(v.w));
+  sum.add(-outwards(plane) * static_cast<double>(bounds_x(plane) ? v.x : v.y));
+  return sum;
+}
+
+int plane_sign(int plane, const GuardCorner& corner) {
+  Expansion<32> sum;
+  sum.add_scaled(corner.w, kGuardBand);
+  sum.add_scaled(bounds_x(plane) ? corner.x : corner.y, -outwards(plane));
+  return sum.sign();
+}
+
+GuardCorner vertex_corner(const Vertex& v, int line) {
+  GuardCorner corner;
+  corner.x.add(v.x), corner.y.add(v.y), corner.z.add(v.z), corner.w.add(v.w);
+  corner.line = line;
+  return corner;
+}
+
+// Where a plane cuts the edge from a to b, from these end points alone: |f(b)| a + |f(a)| b, which is the same real
+// point for either order. f(a) and f(b) have opposite signs.
+GuardCorner edge_corner(int plane, const Vertex& a, const Vertex& b) {
+  const Expansion<2> fa = plane_value(plane, a), fb = plane_value(plane, b);
+  const auto mean = [&](double at_a, double at_b) {
+    Expansion<8> sum;
+    sum.add_scaled(fb, fb.sign() * at_a);
+    sum.add_scaled(fa, fa.sign() * at_b);
+    return sum;
+  };
+  GuardCorner corner;
+  corner.x = mean(a.x, b.x), corner.y = mean(a.y, b.y), corner.z = mean(a.z, b.z), corner.w = mean(a.w, b.w);
+  return corner;
+}
+
+// The sign of the sum of the E_i at the direction (0, 1, 0), which is b_0 + b_1 + b_2.
+int sign_of_b_sum(const Triangle& triangle) {
+  Expansion<6> sum;
+  for (int i = 0; i < 3; ++i) {
+    const EdgeFunction& edge = triangle.edge(i);
+    const double jx = edge.from.x, jw = edge.from.w, kx = edge.to.x, kw = edge.to.w;
+    sum.add(jw * kx);  // 48 bits, exact
+    sum.add(-(jx * kw));
+  }
+  return sum.sign();
+}
+
+// Where two planes of the band meet in the triangle's interior; `first` clipped before `second`. D is not 0: a plane
+// through the eye meets a guard plane in a line through the eye, and the part of that line within a hull without the
+// eye lies on one side of every other guard plane.
+//
+// An X plane and a Y plane: both X planes have been applied by then, so W >= 0, and 0 only at the eye; the point is
+// (+-g, +-g, 1) times a positive number.
+//
+// The two X planes: the point is (0, 1, 0) times l, where the weights l E_i / D of the vertices sum to 1, so l has the
+// sign of D times that of the sum of the E_i at (0, 1, 0). It lies outside of a Y plane, and so is gone in the end.
+GuardCorner band_corner(int first, int second, const Triangle& triangle) {
+  GuardCorner corner;
+  if (!bounds_x(second)) {
+    corner.guard_x = outwards(first) > 0 ? 1 : -1;
+    corner.guard_y = outwards(second) > 0 ? 1 : -1;
+    corner.x.add(kGuardBand * corner.guard_x), corner.y.add(kGuardBand * corner.guard_y), corner.w.add(1);
+  } else {
+    corner.y.add(triangle.determinant() * sign_of_b_sum(triangle));
+  }
+  return corner;
+}
+
+// Where a plane cuts the line that leads from `corner` to the next one.
+GuardCorner cut(const GuardCorner& corner, int plane, const Triangle& triangle) {
+  if (corner.line >= 3) return band_corner(corner.line - 3, plane, triangle);
+  return edge_corner(plane, triangle.edge(corner.line).from, triangle.edge(corner.line).to);
+}
+
+// Sutherland and Hodgman 1974, against one plane. A corner on the plane stays and is not cut again.
+void clip(const GuardPolygon& in, int plane, const Triangle& triangle, GuardPolygon* out) {
+  int sign[7];
+  for (int n = 0; n < in.corners; ++n) sign[n] = plane_sign(plane, in.corner[n]);
+  out->corners = 0;
+  for (int n = 0; n < in.corners; ++n) {
+    const GuardCorner& corner = in.corner[n];
+    const int here = sign[n], next = sign[(n + 1) % in.corners];
+    if (here >= 0) {
+      GuardCorner& kept = out->corner[out->corners++] = corner;
+      if (here == 0 && next < 0) kept.line = 3 + plane;
+    }
+    if (here * next < 0) {
+      GuardCorner& added = out->corner[out->corners++] = cut(corner, plane, triangle);
+      added.line = here > 0 ? 3 + plane : corner.line;
+    }
+  }
+}
+
+// G1. The hull of the triangle does not contain the eye.
+void clip_to_guard_band(const Triangle& triangle, GuardPolygon* polygon) {
+  polygon->corners = 0;
+  bool inside = true;
+  for (int i = 0; i < 3; ++i) {  // the line from vertex i to vertex i + 1 is the edge opposite vertex i + 2
+    polygon->corner[polygon->corners++] = vertex_corner(triangle.vertex(i), (i + 2) % 3);
+    inside = inside && inside_guard_band(triangle.vertex(i));
+  }
+  if (inside) return;
+  GuardPolygon other;
+  static_assert(kPlanes % 2 == 0, "the last result stands in *polygon");
+  for (int plane = 0; plane < kPlanes; plane += 2) {
+    clip(*polygon, plane, triangle, &other);
+    clip(other, plane + 1, triangle, polygon);
+  }
+}
+
+// k for t = (numerator / denominator - offset 2^-(bits + 4)) 2^bits, by its floor and by where t lies above it.
+double round_to_integer(double floor_of_t, int above_floor, int above_half, GridRounding rounding) {
+  const double up = floor_of_t + 1;
+  switch (rounding) {
+    case GridRounding::nearest_even:
+      if (above_half != 0) return above_half > 0 ? up : floor_of_t;
+      return std::fmod(floor_of_t, 2) == 0 ? floor_of_t : up;
+    case GridRounding::nearest_up:
+      return above_half >= 0 ? up : floor_of_t;
+    case GridRounding::truncate:
+      return floor_of_t < 0 && above_floor > 0 ? up : floor_of_t;
+  }
+  return floor_of_t;
+}
+
+// The grid position of a coordinate numerator / denominator, which lies in [-g, g], in units of 2^-(bits + 4) pixels;
+// `offset` is in these units.
+std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator, int offset, const Grid& grid,
+                  Rungs* rungs) {
+  const double scale = 1 << grid.bits;
+  const auto compare = [&](double twice) {  // the sign of t - twice / 2; all factors are exact
+    Expansion<32> rest;
+    rest.add_scaled(numerator, 2 * scale);
+    rest.add_scaled(denominator, -(twice + offset / 8.0));
+    return rest.sign();
+  };
+  // |t| < 2^27, and the estimates, the division and the difference have relative errors below 2^-48 together.
+  const double error = snap_error();
+  const double estimate = numerator.estimate() / denominator.estimate() * scale - offset / 16.0;
+  double floor_of_t = std::floor(estimate);
+  const double fraction = estimate - floor_of_t;  // exact
+  int above_floor = 1, above_half = fraction > 0.5 ? 1 : -1;
+  if (fraction > error && fraction < 1 - error && std::fabs(fraction - 0.5) > error) {
+    count(rungs, &Rungs::values_by_filter);
+  } else {
+    count(rungs, &Rungs::values_by_expansion);
+    if (compare(2 * floor_of_t) < 0) {
+      floor_of_t -= 1;
+    } else if (compare(2 * floor_of_t + 2) >= 0) {
+      floor_of_t += 1;
+    }
+    above_floor = compare(2 * floor_of_t);
+    above_half = compare(2 * floor_of_t + 1);
+  }
+  const double k = round_to_integer(floor_of_t, above_floor, above_half, grid.rounding);
+  return 16 * static_cast<std::int64_t>(k) + offset;
+}
+
+// Widens a range by z / w; an empty range has low > high. Rounding is monotonic, so the rounded ends are those of the
+// exact range.
+template <std::size_t kZ, std::size_t kW>
+void widen(const Expansion<kZ>& z, const Expansion<kW>& w, DepthRange* range) {
+  Expansion<kZ + kW> above_one;
+  for (int i = 0; i < z.size(); ++i) above_one.add(z.term(i));
+  for (int i = 0; i < w.size(); ++i) above_one.add(-w.term(i));
+  const bool below_zero = z.sign() * w.sign()<0, is_above_one = above_one.sign() * w.sign()> 0;
+  const float rounded = round_quotient(z, w);
+  range->low = std::min(range->low, rounded);
+  range->high = std::max(range->high, rounded);
+  range->low_below_zero = range->low_below_zero || below_zero;
+  range->high_below_zero = range->high_below_zero && below_zero;
+  range->low_above_one = range->low_above_one && is_above_one;
+  range->high_above_one = range->high_above_one || is_above_one;
+}
+
+}  // namespace
+
+// If a product m_j x m_k is not 0, the three are multiples of one normal, and the weights l with l_0 m_0 + l_1 m_1 +
+// l_2 m_2 = 0 are those multiples, up to a factor: the signs of any component of the products that is not 0 throughout
+// tell. Else the three vectors are multiples of one direction (or 0), and the hull misses 0 exactly if they are
+// positive multiples of one of them: if a coordinate has one sign, other than 0, in all three.
+bool hull_contains_eye(const Triangle& triangle) {
+  const EdgeFunction &e0 = triangle.edge(0), &e1 = triangle.edge(1), &e2 = triangle.edge(2);
+  const double products[3][3] = {{e0.a, e1.a, e2.a}, {e0.b, e1.b, e2.b}, {e0.c, e1.c, e2.c}};
+  for (const auto& l : products) {
+    const auto [low, high] = std::minmax({l[0], l[1], l[2]});  // their signs are exact
+    if (low != 0 || high != 0) return low >= 0 || high <= 0;
+  }
+  const Vertex &v0 = triangle.vertex(0), &v1 = triangle.vertex(1), &v2 = triangle.vertex(2);
+  const auto one_sign = [](float a, float b, float c) {
+    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+  };
+  return !one_sign(v0.x, v1.x, v2.x) && !one_sign(v0.y, v1.y, v2.y) && !one_sign(v0.w, v1.w, v2.w);
+}
+
+double snapped_position(float c, float w, int offset, const Grid& grid, Rungs* rungs) {
+  Expansion<8> numerator, denominator;
+  numerator.add(c), denominator.add(w);
+  return static_cast<double>(snap(numerator, denominator, offset, grid, rungs)) / (16 << grid.bits);
+}
+
+bool SnappedTriangle::set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs) {
+  depth_range_known_ = false;
+  if (!triangle_.set_up(v0, v1, v2, rungs) && hull_contains_eye(triangle_)) return false;
+  clip_to_guard_band(triangle_, &polygon_);
+  for (int n = 0; n < polygon_.corners; ++n) {
+    const GuardCorner& corner = polygon_.corner[n];
+    point_[n] = {snap(corner.x, corner.w, grid.offset_x, grid, rungs),
+                 snap(corner.y, corner.w, grid.offset_y, grid, rungs)};
+  }
+  units_per_pixel_ = 1 << (grid.bits + 4);
+  return true;
+}
+
+PixelBox SnappedTriangle::box(PixelBox limits, double least_offset, double largest_offset) const {
+  if (polygon_.corners == 0) return {0, 0, 0, 0};
+  Point low = point_[0], high = point_[0];
+  for (int n = 1; n < polygon_.corners; ++n) {
+    low = {std::min(low.x, point_[n].x), std::min(low.y, point_[n].y)};
+    high = {std::max(high.x, point_[n].x), std::max(high.y, point_[n].y)};
+  }
+  const auto pixels = [this](std::int64_t units) { return static_cast<double>(units) / units_per_pixel_; };  // exact
+  clip_to_reach({pixels(low.x), pixels(high.x)}, least_offset, largest_offset, &limits.x0, &limits.x1);
+  clip_to_reach({pixels(low.y), pixels(high.y)}, least_offset, largest_offset, &limits.y0, &limits.y1);
+  return limits;
+}
+
+// Edges that cross the ray from the perturbed sample towards +x, with their direction. Differences of coordinates are
+// below 2^31 + 2^18 in magnitude and their products below 2^63; these are compared and not subtracted.
+int SnappedTriangle::winding(const Point* corner, int corners, SamplePosition p, TieShift shift) const {
+  const auto px = static_cast<std::int64_t>(p.x * units_per_pixel_);
+  const auto py = static_cast<std::int64_t>(p.y * units_per_pixel_);
+  const auto beyond = [&](const Point& a) { return a.y > py || (a.y == py && shift.y < 0); };  // y above the sample's
+  int sum = 0;
+  for (int n = 0; n < corners; ++n) {
+    const Point &from = corner[n], &to = corner[n + 1 < corners ? n + 1 : 0];
+    if (beyond(from) == beyond(to)) continue;
+    const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
+    const std::int64_t left = dx * (py - from.y), right = dy * (px - from.x);  // E(p) = left - right; a = -dy, b = dx
+    int sign = left > right ? 1 : left < right ? -1 : 0;
+    if (sign == 0) sign = tie_sign(-static_cast<double>(dy), static_cast<double>(dx), shift);
+    if (sign == (beyond(to) ? 1 : -1)) sum += sign;
+  }
+  return sum;
+}
+
+bool SnappedTriangle::depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs) {
+  know_depth_range();
+  const DepthRange& range = depth_range_;
+  const bool flat = triangle_.determinant() == 0;
+  if (mode == DepthMode::clip) {
+    // z clamped to [low, high] is below 0 if high is, or if low and z are; and so for 1.
+    if (range.high_below_zero || range.low_above_one) return false;
+    if (flat && range.low_below_zero) return false;
+    if (!flat && range.low_below_zero && triangle_.compare_depth(p, 0, rungs) < 0) return false;
+    if (!flat && range.high_above_one && triangle_.compare_depth(p, 1, rungs) > 0) return false;
+  }
+  *stored = range.low;
+  if (!flat) *stored = std::clamp(triangle_.rounded_depth(p, rungs), range.low, range.high);
+  if (mode == DepthMode::clamp) *stored = std::clamp(*stored, 0.0f, 1.0f);  // rounding is monotonic
+  return true;
+}
+
+void SnappedTriangle::know_depth_range() {
+  if (depth_range_known_) return;
+  depth_range_known_ = true;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  depth_range_ = {kInfinity, -kInfinity, false, true, true, false};
+  for (int n = 0; n < polygon_.corners; ++n) {
+    const GuardCorner& corner = polygon_.corner[n];
+    if (corner.guard_x != 0) {
+      const SamplePosition p{kGuardBand * corner.guard_x, kGuardBand * corner.guard_y};
+      widen(triangle_.exact_depth_numerator(p), triangle_.exact_determinant_value(), &depth_range_);
+    } else {
+      widen(corner.z, corner.w, &depth_range_);
+    }
+  }
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/reference.cpp
+namespace surefill_reference::reference {
+namespace {
+
+// A sample that M2 counts: the triangle, by its position in the draw, the pixel, the number of the sample and, where
+// somebody looks at depth, what is stored of it.
+struct Fragment {
+  std::uint32_t position;
+  int x, y, n;
+  float z;
+};
+
+// One draw of a frame.
+class DrawRenderer {
+ public:
+  // `depth` and `winner` are null if no depth is looked at. winner[s] is the position of the triangle of this draw that
+  // is seen at sample s, or kNoTriangle; all kNoTriangle on entry.
+  DrawRenderer(const Target& target, const Draw& draw, float* depth, std::uint32_t* winner, Rungs& rungs)
+      : target_(target), draw_(draw), depth_(depth), winner_(winner), rungs_(rungs), shift_(tie_shift(draw.fill_rule)) {
+    for (int n = 0; n < target.samples; ++n) {
+      const SamplePosition offset = offset_[n] = sample_offset(target.samples, n);
+      least_ = std::min({least_, offset.x, offset.y}), largest_ = std::max({largest_, offset.x, offset.y});
+    }
+  }
+
+  // Who covers, and who is seen.
+  void rasterize() {
+    traverse(0, target_.samples, [this](const Fragment& f) {
+      const std::size_t s = sample_index(target_, f.x, f.y, static_cast<std::size_t>(f.n));
+      if (!target_.count.empty()) ++target_.count[s];
+      if (winner_ == nullptr || !passes(f.position, f.z, s)) return;
+      winner_[s] = f.position;
+      if (draw_.depth_write) depth_[s] = f.z;
+    });
+  }
+
+  // The covered samples of number n, triangle by triangle, block by block.
+  void visit(std::uint32_t number, int n, const CoverageVisitor& visitor) {
+    CoverageBlock block{number, 0, 0, 0, n, 0};
+    const auto flush = [&] {
+      if (block.mask != 0) visitor.visit(visitor.context, {&block, 1});
+      block.mask = 0;
+    };
+    traverse(n, n + 1, [&](const Fragment& f) {
+      if (f.position != block.triangle || (f.x & ~7) != block.x || (f.y & ~7) != block.y) {
+        flush();
+        block.triangle = f.position, block.x = f.x & ~7, block.y = f.y & ~7;
+      }
+      block.mask |= std::uint64_t{1} << (8 * (f.y & 7) + (f.x & 7));
+    });
+    flush();
+  }
+
+  // Writes index, barycentrics and attributes of every sample whose winner belongs to this draw.
+  void shade(bool shading) {
+    for (int y = 0; y < target_.height; ++y) {
+      for (int x = 0; x < target_.width; ++x) {
+        const std::size_t first = sample_index(target_, x, y, 0);
+        for (std::size_t s = first; s < first + static_cast<std::size_t>(target_.samples); ++s) {
+          const std::uint32_t position = winner_[s];
+          if (position == kNoTriangle) continue;
+          if (!target_.index.empty()) target_.index[s] = index_of(draw_, position);
+          if (!shading) continue;
+          if (s > first && winner_[s - 1] == position) {
+            copy_shading(s - 1, s);
+            continue;
+          }
+          triangle_.use(draw_, position, &rungs_);
+          shade_sample(position, triangle_.place_of_attributes(target_, x, y, shift_), s);
+        }
+      }
+    }
+  }
+
+ private:
+  // Calls sink(Fragment) for each sample of numbers [first, last) that M2 counts: triangle by triangle, and of each by
+  // blocks of 8 x 8 pixels.
+  template <typename Sink>
+  void traverse(int first, int last, const Sink& sink) {
+    const PixelBox region = region_of(target_, draw_);
+    for (std::size_t t = 0; t < triangles_of(draw_); ++t) {
+      const auto position = static_cast<std::uint32_t>(t);
+      if (region.empty() || !is_finite(draw_, position) || !triangle_.use(draw_, position, &rungs_)) continue;
+      // Under Grid facing is a matter of the sample (G1).
+      if (!draw_.grid && culls(draw_, triangle_.triangle().determinant())) continue;
+      const PixelBox box = triangle_.box(region, least_, largest_);
+      for (int by = box.y0 & ~7; by < box.y1; by += 8) {
+        for (int bx = box.x0 & ~7; bx < box.x1; bx += 8) {
+          for (int y = std::max(by, box.y0); y < std::min(by + 8, box.y1); ++y) {
+            for (int x = std::max(bx, box.x0); x < std::min(bx + 8, box.x1); ++x) {
+              for (int n = first; n < last; ++n) {
+                Fragment fragment{position, x, y, n, 0};
+                if (counts(fragment)) sink(fragment);
+              }
+            }
+          }
+        }
+      }
+    }
+  }
+
+  // M2: covered, not culled, and not removed by depth clipping. Finds out the depth, where it is looked at.
+  bool counts(Fragment& f) {
+    if (draw_.conservative != Conservative::none) return triangle_.draws_square(f.x, f.y, &rungs_);
+    const SamplePosition p{f.x + offset_[f.n].x, f.y + offset_[f.n].y};
+    if (!triangle_.draws(p, shift_, &rungs_)) return false;
+    if (winner_ == nullptr && draw_.depth_mode != DepthMode::clip) return true;
+    return triangle_.depth(p, &f.z, &rungs_);
+  }
+
+  // V1 and M5. Among equal indices the first position wins with depth write on, the last with depth write off.
+  bool passes(std::uint32_t position, float z, std::size_t s) const {
+    const bool nearer = target_.depth_test == DepthTest::less ? z < depth_[s] : z > depth_[s];
+    if (winner_[s] == kNoTriangle) return nearer;
+    if (!draw_.depth_write) return nearer && index_of(draw_, position) >= index_of(draw_, winner_[s]);
+    return nearer || (z == depth_[s] && index_of(draw_, position) < index_of(draw_, winner_[s]));
+  }
+
+  void shade_sample(std::uint32_t position, SamplePosition p, std::size_t s) {
+    if (!target_.barycentrics.empty()) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const float unit[3] = {i == 0 ? 1.0f : 0.0f, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f};
+        target_.barycentrics[3 * s + i] = triangle_.attribute(p, unit, Interpolation::perspective, &rungs_);
+      }
+    }
+    for (std::size_t k = 0; k < target_.attributes.size(); ++k) {
+      const AttributeTarget& out = target_.attributes[k];
+      if (out.values.empty()) continue;
+      const AttributeArray& in = draw_.attributes[k];
+      for (std::size_t c = 0; c < out.components; ++c) {
+        float u[3];
+        for (std::size_t i = 0; i < 3; ++i) u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
+        out.values[s * out.components + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
+      }
+    }
+  }
+
+  // Attributes are evaluated once per pixel (M1).
+  void copy_shading(std::size_t from, std::size_t to) {
+    if (!target_.barycentrics.empty()) {
+      for (std::size_t i = 0; i < 3; ++i) target_.barycentrics[3 * to + i] = target_.barycentrics[3 * from + i];
+    }
+    for (const AttributeTarget& out : target_.attributes) {
+      if (out.values.empty()) continue;
+      for (std::size_t c = 0; c < out.components; ++c) {
+        out.values[to * out.components + c] = out.values[from * out.components + c];
+      }
+    }
+  }
+
+  const Target& target_;
+  const Draw& draw_;
+  float* depth_;
+  std::uint32_t* winner_;
+  Rungs& rungs_;
+  TieShift shift_;
+  SamplePosition offset_[16];       // of the samples of a pixel
+  double least_ = 1, largest_ = 0;  // of their coordinates
+  ExactDraw triangle_;
+};
+
+// The empty image (V1), without depth.
+void clear(const Target& target) {
+  std::fill(target.count.begin(), target.count.end(), 0u);
+  std::fill(target.index.begin(), target.index.end(), kNoTriangle);
+  std::fill(target.barycentrics.begin(), target.barycentrics.end(), 0.0f);
+  for (const AttributeTarget& attribute : target.attributes) {
+    std::fill(attribute.values.begin(), attribute.values.end(), 0.0f);
+  }
+}
+
+void clear_depth(const Target& target, float* depth, std::size_t total) {
+  if (target.initial_depth.empty()) {
+    std::fill(depth, depth + total, empty_depth(target.depth_test));
+  } else if (target.initial_depth.data() != depth) {
+    std::memcpy(depth, target.initial_depth.data(), total * sizeof(float));
+  }
+}
+
+}  // namespace
+
+Status render(const Target& target, std::span<const Draw> draws, Rungs& rungs) noexcept {
+  const Wanted wanted = wanted_outputs(target);
+  const std::size_t total = sample_total(target);
+  std::unique_ptr<float[]> own_depth;
+  std::unique_ptr<std::uint32_t[]> winner;
+  float* depth = nullptr;
+  if (wanted.depth) {
+    depth = target.depth.data();
+    if (target.depth.empty()) {
+      own_depth.reset(new (std::nothrow) float[total]);
+      depth = own_depth.get();
+    }
+    winner.reset(new (std::nothrow) std::uint32_t[total]);
+    if (depth == nullptr || winner == nullptr) return Status::out_of_memory;
+    clear_depth(target, depth, total);
+  }
+  clear(target);
+  for (const Draw& draw : draws) {
+    if (winner != nullptr) std::fill(winner.get(), winner.get() + total, kNoTriangle);
+    DrawRenderer renderer(target, draw, depth, winner.get(), rungs);
+    renderer.rasterize();
+    if (wanted.visibility) renderer.shade(wanted.shading);
+  }
+  return Status::ok;
+}
+
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      Rungs& rungs) noexcept {
+  for (int n = 0; n < target.samples; ++n) {
+    for (std::size_t d = 0; d < draws.size(); ++d) {
+      DrawRenderer(target, draws[d], nullptr, nullptr, rungs).visit(static_cast<std::uint32_t>(d), n, visitor);
+    }
+  }
+  return Status::ok;
+}
+
+}  // namespace surefill_reference::reference
+
+// ---------------------------------------------------------------- src/exact/exact_draw.cpp
+namespace surefill_reference {
+
+int orientation(const Draw& draw, std::uint32_t position, Rungs* rungs) {
+  const EdgeFunction edge(vertex_of(draw, position, 1), vertex_of(draw, position, 2));
+  return determinant_sign(edge, vertex_of(draw, position, 0), rungs);
+}
+
+bool is_degenerate(const Draw& draw, std::uint32_t position) {
+  if (!draw.grid) return true;
+  Triangle triangle;
+  triangle.set_up(vertex_of(draw, position, 0), vertex_of(draw, position, 1), vertex_of(draw, position, 2));
+  return hull_contains_eye(triangle);
+}
+
+bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
+  if (draw_ == &draw && position_ == position) return covers_something_;
+  draw_ = &draw, position_ = position;
+  const Vertex &v0 = vertex_of(draw, position, 0), &v1 = vertex_of(draw, position, 1),
+               &v2 = vertex_of(draw, position, 2);
+  covers_something_ = draw.grid ? snapped_.set_up(v0, v1, v2, *draw.grid, rungs) : triangle_.set_up(v0, v1, v2, rungs);
+  return covers_something_;
+}
+
+PixelBox ExactDraw::box(const PixelBox& limits, double least_offset, double largest_offset) const {
+  if (draw_->grid) return snapped_.box(limits, least_offset, largest_offset);
+  const bool squares = draw_->conservative != Conservative::none;
+  return screen_box(triangle_.vertex(0), triangle_.vertex(1), triangle_.vertex(2), limits, squares ? 0 : least_offset,
+                    squares ? 1 : largest_offset);
+}
+
+bool ExactDraw::draws_square(int x, int y, Rungs* rungs) const {
+  const PixelSquare square(triangle_, x, y, rungs);
+  return draw_->conservative == Conservative::over ? square.touched() : square.inside();
+}
+
+bool ExactDraw::depth(SamplePosition p, float* stored, Rungs* rungs) {
+  return draw_->grid ? snapped_.depth(p, draw_->depth_mode, stored, rungs)
+                     : triangle_.depth(p, draw_->depth_mode, stored, rungs);
+}
+
+bool ExactDraw::has_values(SamplePosition p) const {
+  return draw_->grid ? snapped_.has_weights(p) : triangle_.plane_in_front(p);
+}
+
+SamplePosition ExactDraw::place_of_attributes(const Target& target, int x, int y, TieShift shift) const {
+  const SamplePosition centre{x + 0.5, y + 0.5};
+  if (target.samples == 1) return centre;
+  if (target.attribute_location == AttributeLocation::centre && has_values(centre)) return centre;
+  if (covers(centre, shift)) return centre;
+  for (int n = 0; n < target.samples; ++n) {
+    const SamplePosition offset = sample_offset(target.samples, n), p{x + offset.x, y + offset.y};
+    if (covers(p, shift)) return p;
+  }
+  return centre;  // not reached: the triangle is seen at a sample of this pixel
+}
+
+float ExactDraw::attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs) {
+  return draw_->grid ? snapped_.attribute(p, u, interpolation, rungs) : triangle_.attribute(p, u, interpolation, rungs);
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/statistics.cpp
+namespace surefill_reference {
+
+Statistics statistics_of(std::span<const Draw> draws) noexcept {
+  Statistics sum;
+  for (const Draw& draw : draws) {
+    for (std::size_t t = 0; t < triangles_of(draw); ++t) {
+      const auto position = static_cast<std::uint32_t>(t);
+      if (!is_finite(draw, position)) {
+        ++sum.dropped;
+        continue;
+      }
+      const int sign = orientation(draw, position);
+      if (sign == 0 && is_degenerate(draw, position)) {
+        ++sum.degenerate;
+      } else if (!draw.grid && culls(draw, sign)) {
+        ++sum.culled;
+      } else {
+        ++sum.rasterized;
+      }
+    }
+  }
+  return sum;
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/viewport.cpp
+//
+// The viewport map (S3): sums of at most four products of two float32, exact in double, rounded once.
+
+
+namespace surefill_reference {
+namespace {
+
+using Sum = Expansion<4>;
+
+// The float32 nearest to the sum as IEEE 754 has it: beyond range infinity, too small a zero of its sign, exactly 0 is
+// +0.
+float round_sum(const Sum& sum) {
+  const double estimate = sum.estimate();
+  const double error = std::fabs(estimate) * 0x1p-50;
+  const float low = static_cast<float>(estimate - error), high = static_cast<float>(estimate + error);
+  if (low == high) return low;
+  return nearest_of_neighbours(low, high, [&](double midpoint) {
+    Expansion<5> rest;
+    for (int i = 0; i < sum.size(); ++i) rest.add(sum.term(i));
+    rest.add(-midpoint);
+    return rest.sign();
+  });
+}
+
+// Adds a * b for float32 values, one of them perhaps halved: at most 48 bits, exact.
+void add(Sum& sum, double a, double b) {
+  sum.add(a * b);
+}
+
+Vertex map(const Viewport& viewport, const ClipVertex& v) {
+  if (!(std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w))) {
+    const float nan = std::numeric_limits<float>::quiet_NaN();
+    return {nan, nan, nan, nan};
+  }
+  const double half_width = viewport.width / 2.0, half_height = viewport.height / 2.0;
+  const double near_depth = viewport.near_depth, far_depth = viewport.far_depth;
+  const double y_sign = viewport.clip_y == ClipY::up ? -1 : 1;
+  Sum x, y, z;
+  add(x, v.x, half_width);
+  add(x, v.w, viewport.x);
+  add(x, v.w, half_width);
+  add(y, v.y, y_sign * half_height);
+  add(y, v.w, viewport.y);
+  add(y, v.w, half_height);
+  if (viewport.clip_depth == ClipDepth::zero_to_one) {
+    add(z, v.z, far_depth);
+    add(z, -v.z, near_depth);
+    add(z, v.w, near_depth);
+  } else {
+    add(z, v.z, far_depth / 2);
+    add(z, -v.z, near_depth / 2);
+    add(z, v.w, far_depth / 2);
+    add(z, v.w, near_depth / 2);
+  }
+  return {round_sum(x), round_sum(y), round_sum(z), v.w + 0.0f};
+}
+
+// Not inlined: it needs the engine's floating-point state.
+[[gnu::noinline]] bool is_finite(const Viewport& v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.width) && std::isfinite(v.height) &&
+         std::isfinite(v.near_depth) && std::isfinite(v.far_depth);
+}
+
+// Nor this.
+[[gnu::noinline]] void map_all(const Viewport& viewport, std::span<const ClipVertex> vertices, std::span<Vertex> out) {
+  for (std::size_t i = 0; i < vertices.size(); ++i) out[i] = map(viewport, vertices[i]);
+}
+
+}  // namespace
+
+Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices, std::span<Vertex> out) noexcept {
+  if (!is_exact_build()) return Status::bad_build;
+  const FloatEnvironment environment;
+  if (!is_finite(viewport)) return Status::viewport;
+  if (viewport.clip_depth > ClipDepth::minus_one_to_one || viewport.clip_y > ClipY::down) return Status::viewport;
+  if (vertices.size() != out.size() || (vertices.data() == nullptr && !vertices.empty()) ||
+      (out.data() == nullptr && !out.empty()) || Bytes(out).overlaps(Bytes(vertices)) ||
+      Bytes(out).overlaps(Bytes::of(&viewport))) {
+    return Status::to_pixel_vertices;
+  }
+  map_all(viewport, vertices, out);
+  return Status::ok;
+}
+
+}  // namespace surefill_reference

@@ -2,6 +2,7 @@
 import ctypes
 import platform
 import struct
+import subprocess
 import sys
 import threading
 import unittest
@@ -253,6 +254,103 @@ class FloatState(unittest.TestCase):
                         raise
 
         self.in_state(self.TRAPS_OFF | self.FTZ, call)
+
+
+# The engine behind `serve`, drawing as certify asks; the texts for the faults are put in by the tests.
+SERVED = """
+import numpy as np, surefill
+def draw(scene):
+    draw, = scene.draws
+    print("drawing")  # is no part of the answer
+    if len(draw.triangles) > 2:
+        raise surefill.Unsupported("more than two triangles")
+    raster = surefill.rasterize(draw.positions, draw.triangles, (scene.height, scene.width), samples=scene.samples,
+                                identifiers=draw.identifiers, depth_test=scene.depth_test, cull=draw.cull)
+    values = [surefill.interpolate(np.ascontiguousarray(a.values), raster, interpolation=a.interpolation)
+              for a in draw.attributes]
+    count = (raster.index != surefill.NO_TRIANGLE).astype(np.uint8)
+    return {"count": count, "index": raster.index, "depth": raster.depth, "attributes": values}
+surefill.serve(draw, name="served", version="7", outputs=["count", "index", "depth", "attributes"],
+               features=["samples", "cull", "flat"], model="exact", profile="exact", limits={"width": 512})
+"""
+
+
+class Serving(unittest.TestCase):
+    def talk(self, program, *requests):
+        """The (status, body) of each answer; messages are packed here by hand, from docs/adapters.md."""
+        data = b"".join(struct.pack("<2I", kind, len(body) // 4) + body for kind, body in requests)
+        result = subprocess.run([sys.executable, "-c", program], input=data, stdout=subprocess.PIPE,
+                                stderr=subprocess.PIPE, timeout=60)
+        self.said, answers, rest = result.stderr.decode(), [], result.stdout
+        while rest:
+            status, length = struct.unpack("<2I", rest[:8])
+            answers.append((status, rest[8:8 + 4 * length]))
+            rest = rest[8 + 4 * length:]
+        return answers
+
+    @staticmethod
+    def scene(outputs, triangles=TRIANGLES, samples=1, cull=0):
+        head = struct.pack("<9I1I", outputs, SIZE[1], SIZE[0], samples, 0, 0, 1, 1, 0, 2)  # one attribute of two components
+        draw = struct.pack("<3I6f8I4i5I", len(POSITIONS), len(triangles), 0, 0, 0, 8, 8, 0, 1, 0, 0, 0, cull, 0, 1, 0, 0,
+                           0, 0, 0, 0, 0, 0, 0, 0, 0)
+        identifiers = np.arange(40, 40 + len(triangles), dtype="<u4")
+        return b"".join([head, draw, POSITIONS.tobytes(), POSITIONS.tobytes(), triangles.astype("<u4").tobytes(),
+                         identifiers.tobytes(), struct.pack("<I", 2), np.arange(8, dtype="<f4").tobytes()])
+
+    def test_what_is_asked_is_answered(self):
+        info, (status, images), close = self.talk(SERVED, (1, struct.pack("<I", 1)), (2, self.scene(23)), (2, self.scene(2)))
+        self.assertEqual(info[0], 0)
+        self.assertEqual(struct.unpack("<64s64s18I", info[1]),
+                         (b"served".ljust(64, b"\0"), b"7".ljust(64, b"\0"), 23, 4 | 8 | 1 << 12, 0,
+                          1, 0, 0, 0, 0, 0, 0, 0, 0, 512, 0, 0, 0, 0, 0))
+        raster = surefill.rasterize(POSITIONS, TRIANGLES, SIZE, identifiers=np.array([40, 41], np.uint32))
+        flat = np.where((raster.index == 40)[..., None], np.float32([0, 1]), np.float32([0, 1]))  # both begin at vertex 0
+        self.assertEqual(status, 0)
+        self.assertEqual(images, np.ones(SIZE, "<u4").tobytes() + raster.index.tobytes() + raster.depth.tobytes() +
+                         flat.astype("<f4").tobytes())
+        self.assertEqual(close, (0, raster.index.tobytes()))
+        self.assertIn("drawing", self.said)
+
+    def test_state_reaches_the_function(self):
+        (status, image), culled = self.talk(SERVED, (2, self.scene(1, samples=4)), (2, self.scene(1, cull=1)))
+        self.assertEqual((status, image), (0, np.ones(SIZE + (4,), "<u4").tobytes()))
+        self.assertEqual(culled, (0, np.zeros(SIZE, "<u4").tobytes()))
+
+    def test_what_is_declined_and_what_fails(self):
+        many = self.scene(1, np.concatenate([TRIANGLES, TRIANGLES]))
+        declined, drawn = self.talk(SERVED, (2, many), (2, self.scene(1)))
+        self.assertEqual((declined[0], declined[1].rstrip(b"\0")), (1, b"more than two triangles"))
+        self.assertEqual(drawn[0], 0)
+        for fault, text in (("astype(np.uint8)[1:]", "count: shape (6, 8) is needed, not (5, 8)"),
+                            ("astype(float)", "count: whole numbers are needed, not float64"),
+                            ("nothing()", "AttributeError")):
+            (status, body), = self.talk(SERVED.replace("astype(np.uint8)", fault), (2, self.scene(1)))
+            self.assertEqual(status, 2)
+            self.assertIn(text, body.decode())
+        (status, body), = self.talk(SERVED.replace('"index": raster', '"indices": raster'), (2, self.scene(2)))
+        self.assertIn("index was asked for", body.decode())
+
+    def test_a_wrong_claim_is_refused(self):
+        for claim, error in (('features=["culling"]', "features: one of behind"), ('outputs=["colour"]', "outputs: one of"),
+                             ('profile="good"', "profile: one of exact"), ('limits={"pixels": 1}', "limits: one of width")):
+            self.assertEqual(self.talk(f"import surefill\nsurefill.serve(None, name='x', {claim})"), [])
+            self.assertIn(error, self.said)
+
+    def test_one_triangle_at_a_time(self):
+        program = """
+import numpy as np, surefill
+@surefill.each_triangle
+def draw(xy, height, width):
+    assert xy.shape == (3, 2) and xy.dtype == np.float64
+    image = np.zeros((height, width), bool)
+    image[0, 0] = xy[1, 0] == 8  # the corner of the first triangle alone
+    return image
+surefill.serve(draw, name="one")
+"""
+        (status, image), = self.talk(program, (2, self.scene(1)))
+        expected = np.zeros(SIZE, "<u4")
+        expected[0, 0] = 2
+        self.assertEqual((status, image), (0, expected.tobytes()))
 
 
 if __name__ == "__main__":

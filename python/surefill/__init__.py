@@ -13,6 +13,8 @@ rounded once. The same bits on every machine. docs/semantics.md says what they a
 Arrays are used where they lie, never copied: they must be C-contiguous and of the dtype that is asked for. What is not
 raises TypeError (dtype, not an array), ValueError (shape, size, option) or IndexError (triangles); the message begins
 with the argument's name. The GIL is released while triangles are drawn.
+
+`serve` puts a rasterizer of yours under `surefill certify`: a function from a scene of arrays to images (serving.py).
 """
 
 from __future__ import annotations
@@ -26,9 +28,11 @@ from numpy.typing import NDArray
 
 from . import _surefill
 from ._words import WORDS
+from .serving import Attribute, Draw, Scene, Unsupported, each_triangle, serve
 
 __version__: str = _surefill.version
-__all__ = ["NO_TRIANGLE", "Raster", "coverage", "interpolate", "rasterize", "to_pixel"]
+__all__ = ["NO_TRIANGLE", "Raster", "coverage", "interpolate", "rasterize", "to_pixel",
+           "Attribute", "Draw", "Scene", "Unsupported", "each_triangle", "serve"]
 
 NO_TRIANGLE: int = 0xFFFFFFFF
 """The index of a sample that no triangle covers."""

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The SoftwareRenderer that three.js had until release 108, under test: colours that say which triangle it is, on a canvas that
-// is no more than an array.
+// is no more than an array. It cuts what is wider than 100 pixels into four, over and over and outside of the image, too; what would
+// take it seconds is declined.
 //   npm install --prefix build/rivals three@0.106.2
 //   surefill certify --command "node examples/rivals/three_software.mjs"
 import { createRequire } from "node:module";
 
-import { EMPTY, serve } from "./serve.mjs";
+import { EMPTY, Unsupported, serve } from "./serve.mjs";
 
 console.log = console.error;
 const require = createRequire(new URL("../../build/rivals/", import.meta.url));
@@ -15,6 +16,7 @@ require("three/examples/js/renderers/Projector.js");
 require("three/examples/js/renderers/SoftwareRenderer.js");
 
 const BLOCK = 8; // its canvas is cut to a multiple of this
+const WIDEST = 1 << 14; // pixels
 
 let pixels;
 const canvas = {
@@ -40,6 +42,7 @@ function draw({ width, height, draws }) {
       const first = geometry.vertices.length;
       for (const i of triangles.subarray(3 * t, 3 * t + 3)) {
         const [x, y, z, w] = positions.subarray(4 * i, 4 * i + 4);
+        if (Math.max(Math.abs(x), Math.abs(y)) > WIDEST * w) throw new Unsupported("triangles far beside the image");
         geometry.vertices.push(new THREE.Vector3((2 * x) / w / wide - 1, 1 - (2 * y) / w / high, (2 * z) / w - 1));
       }
       identifiers.push(names[t]);

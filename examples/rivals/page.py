@@ -1,0 +1,178 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Certifies rasterizers that Debian and npm deliver, and writes docs/rivals.md.
+
+usage: examples/rivals/page.py COMMAND [--write] [--only NAMES] [--packages]
+COMMAND is the surefill command. Each row of ROWS whose package is there is certified at level quick and held against what is
+written beside it here: the verdict, and the checks that find something. --write makes docs/rivals.md of it; without it, the
+page is held against this run too. --packages prints the packages of all rows.
+Exit 0: as it is written. 1: not so. 77: no row has its package here.
+"""
+import dataclasses
+import json
+import os
+import pathlib
+import re
+import shlex
+import subprocess
+import sys
+import tempfile
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGE = ROOT / "docs/rivals.md"
+PYTHON = "/usr/bin/python3"  # Debian's, which sees Debian's packages
+
+
+@dataclasses.dataclass(frozen=True)
+class Row:
+    name: str
+    package: str  # of Debian; or npm:NAME@VERSION
+    options: str  # of `surefill certify`
+    version: str  # of the rasterizer that this row is about
+    verdict: str  # "certified" or "not certified"
+    found: str  # the checks that find something
+    cause: str  # by hand: what it does, and whether that is wrong
+    unfair: str = ""  # by hand: what certify says of it that is not so
+
+
+def python(name):
+    return f'--command "{PYTHON} examples/rivals/{name}.py"'
+
+
+ROWS = (
+    Row("GDAL, RasterizeLayer", "python3-gdal", python("gdal_rasterize"), "3.6.2", "certified", "",
+        "Right: samples at the centres of pixels, float64, each sample on an edge owned once.",
+        "It keeps to no grid: \"16 bits\" is how finely float64 was told from a grid."),
+    Row("scikit-image, draw.polygon", "python3-skimage", python("scikit_image"), "0.19.3", "certified", "",
+        "Right, and not watertight: samples on an edge are covered by both neighbours.",
+        "It keeps to no grid: \"16 bits\" is how finely float64 was told from a grid."),
+    Row("cairo, ANTIALIAS_NONE", "python3-cairo", python("cairo_fill"), "1.16.0", "not certified", "clear-samples",
+        "A fault: positions are 24.8 fixed point, and what lies at 2^23 pixels or beyond wraps: the triangle is lost (at 2^23 - 1 it is "
+        "drawn). Under 300 random triangles, 12 of 43,200 samples are other than on that grid of 8 bits.",
+        "A grid of 6 bits: cairo's has 8."),
+    Row("Agg in matplotlib, not antialiased", "python3-matplotlib", python("matplotlib_agg"), "3.6.3", "not certified",
+        "model, clear-samples",
+        "It does not look at samples: each pixel is drawn of which the triangle covers 1/256 or more (over 60 random triangles, no pixel "
+        "beside the triangle was drawn, and none missed with more than 0.0039 of its area). Meshes overlap along their edges.",
+        "`clear-samples` calls pixels wrong whose corner the triangle covers."),
+    Row("Pillow, ImageDraw.polygon", "python3-pil", python("pillow"), "9.4.0", "not certified", "model, clear-samples",
+        "It draws the outline as well as the inside: edges reach half a pixel further than their triangle on all sides. Meshes overlap "
+        "along their edges.",
+        "`clear-samples` calls pixels wrong that the outline passes."),
+    Row("OpenCV, fillConvexPoly", "python3-opencv", python("opencv"), "4.6.0", "not certified", "model",
+        "It draws the outline as well as the inside: edges reach half a pixel further than their triangle on all "
+        "sides. Meshes overlap along their edges."),
+    Row("Qt, QPainter, not antialiased", "python3-pyqt5", python("qt_painter"), "5.15.8", "not certified", "model, clear-samples",
+        "Not settled: upright and level edges keep to a grid of 1/64 pixel; slanted ones go by no model that was tried."),
+    Row("pygame, draw.polygon", "python3-pygame", python("pygame_polygon"), "2.1.2", "not certified", "model, clear-samples",
+        "It takes whole pixels, and draws the outline as well as the inside. A fault that the adapter hides: it goes through all rows of a "
+        "triangle, those outside of the image, too, so that one of 2^23 rows takes more than 5 s."),
+    Row("three.js, SoftwareRenderer", "npm:three@0.106.2", '--command "node examples/rivals/three_software.mjs"', "106",
+        "not certified", "model-small-world-homogeneous",
+        "Faults: samples are taken at the corner of a pixel, half a pixel off; a triangle with one vertex before the near or behind the far "
+        "plane is dropped whole; one that is wider than 100 pixels is cut at snapped midpoints, over and over. The adapter hides that "
+        "this goes on outside of the image, so that a triangle of 2^23 pixels never ends."),
+)
+
+
+def is_there(row):
+    if row.package.startswith("npm:"):
+        return (ROOT / "build/rivals/node_modules" / row.package[4:].split("@")[0]).is_dir()
+    query = subprocess.run(["dpkg-query", "-W", "-f", "${db:Status-Abbrev}", row.package], capture_output=True, text=True)
+    return query.stdout == "ii "
+
+
+def certify(command, row):
+    """The certificate; None, and why, where there is none."""
+    with tempfile.TemporaryDirectory() as folder:
+        file = os.path.join(folder, "certificate.json")
+        words = [command, "certify", "--level", "quick", "--jobs", "1", "--output-dir", folder, "--json", file]
+        run = subprocess.run(words + shlex.split(row.options), cwd=ROOT, capture_output=True, text=True)
+        if run.returncode not in (0, 1):
+            return None, run.stderr.strip()
+        return json.loads(pathlib.Path(file).read_text()), ""
+
+
+def found_by(certificate):
+    return ", ".join(check["name"] for check in certificate["checks"] if check["failed"] > 0)
+
+
+def section(row, certificate):
+    judged = sum(1 for check in certificate["checks"] if check["samples"] > 0)
+    rival = certificate["rival"]
+    lines = [f"## {row.name}", "", f"```console\n$ surefill certify --level quick {row.options}\n```", ""]
+    said = [f"*Found*: {rival['inferred_model']}."]
+    if rival["departures"]:
+        said.append("Notes: " + "; ".join(rival["departures"]) + ".")
+    said.append(f"Verdict: {certificate['verdict']}, {judged} of {len(certificate['checks'])} checks judged" +
+                (f"; {found_by(certificate)} found differences." if found_by(certificate) else "."))
+    lines += [" ".join(said), "", f"*By hand*: {row.cause}"]
+    if row.unfair:
+        lines += ["", f"*Not so*, and the fault of the judge: {row.unfair}"]
+    return "\n".join(lines) + "\n"
+
+
+def matrix_line(row, model):
+    verdict = "certified" if row.verdict == "certified" else f"not certified: {row.found}"
+    return f"| {row.name} {row.version} | {row.package.replace('npm:', 'npm: ')} | {model} | {verdict} | {'yes' if row.unfair else ''} |"
+
+
+HEAD = """# Rasterizers that others made
+
+What `surefill certify` says of rasterizers that Debian 12 and npm deliver, and what a look by hand says of that. Written by `./dev rivals
+--write`; `./dev rivals` runs each row again whose package is there, and so does a test. `./dev setup all` installs the packages.
+The adapters are in [examples/rivals](../examples/rivals); most are ten lines over `surefill.serve`
+([certify-your-rasterizer.md](certify-your-rasterizer.md)). Mesa's llvmpipe, softpipe and lavapipe have pages of their own:
+[certificates](certificates/README.md).
+
+Nobody here is wrong for being another rasterizer than ours. Drawing libraries that draw outlines, or whole pixels that a triangle
+touches, do what they are for; they are not certified because meshes overlap under such a rule, and because no place of samples explains it.
+Where certify itself says what is not so, the last column says "yes", and the section says what; each is a fault of the judge that
+is to be mended.
+
+| rasterizer | package | model found | verdict | unfair to it |
+| --- | --- | --- | --- | --- |
+"""
+
+
+def main(arguments):
+    if "--packages" in arguments:
+        print(" ".join(row.package for row in ROWS if not row.package.startswith("npm:")))
+        return 0
+    only = arguments[arguments.index("--only") + 1].split(",") if "--only" in arguments else []
+    command, write = os.path.abspath(arguments[0]), "--write" in arguments
+    page = PAGE.read_text() if PAGE.is_file() else ""
+    matrix, sections, wrong, ran = [], [], [], 0
+    for row in ROWS:
+        if only and not any(name.lower() in row.name.lower() for name in only):
+            continue
+        certificate, why = certify(command, row) if is_there(row) else (None, f"{row.package} is not installed")
+        version = certificate["rival"]["version"] if certificate else ""
+        if certificate and version != row.version:
+            certificate, why = None, f"this is {version}, and the row is about {row.version}"
+        if not certificate:
+            print(f"skipped  {row.name}: {why}")
+            continue
+        ran += 1
+        complaints = [f"{what} is {is_!r}, written is {should!r}" for what, is_, should in (
+            ("verdict", certificate["verdict"], row.verdict), ("found by", found_by(certificate), row.found)) if is_ != should]
+        matrix.append(matrix_line(row, certificate["rival"]["inferred_model"]))
+        sections.append(section(row, certificate))
+        if not write and (matrix[-1] not in page or sections[-1] not in page):
+            complaints.append("docs/rivals.md says otherwise (--write)")
+        wrong += complaints
+        print(f"{'DIFFERS' if complaints else 'ok     '}  {row.name} {version}: {certificate['verdict']}; "
+              f"{certificate['rival']['inferred_model']}; {found_by(certificate) or 'nothing found'}; {certificate['seconds']:.1f} s")
+        for complaint in complaints:
+            print(f"         {complaint}")
+    if write:
+        PAGE.write_text(HEAD + "\n".join(matrix) + "\n\n" + "\n".join(sections))
+    if ran == 0:
+        return 77
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
+        sys.exit(__doc__)
+    sys.exit(main(sys.argv[1:]))

@@ -31,8 +31,9 @@ ROOMS = {
     "python": [*ENGINE],
     "examples": [*ENGINE],  # those that embed the engine
     "mutation/zoo/zoo.hpp": [*ENGINE],
+    "oracle/edges.hpp": [*ENGINE],
     "oracle/model.hpp": [*ENGINE],
-    "oracle": [*ENGINE, "oracle/model.hpp"],
+    "oracle": [*ENGINE, "oracle/edges.hpp", "oracle/model.hpp"],
     "corpus": [*ENGINE],
     "textbook": [*ENGINE, "engine/src/exact"],  # it shows the engine's own arithmetic
     "properties": SUITE[:-1],
@@ -41,7 +42,7 @@ ROOMS = {
     "certify/adapter.h": [],
     "certify/drivers": ["certify/adapter.h"],  # plugins: all they know of the suite
     "examples/rivals": ["certify/adapter.h"],  # the same
-    "certify/judge": [*ENGINE, "corpus", "oracle/model.hpp"],  # a library without an oracle, files or processes
+    "certify/judge": [*ENGINE, "corpus", "oracle/edges.hpp", "oracle/model.hpp"],  # a library without an oracle, files or processes
     "certify": [*SUITE, "oracle/model.hpp", "textbook", "certify/adapter.h", "certify/judge", "mutation/zoo/zoo.hpp"],
     "reference/surefill_reference.h": [],  # the engine's reference path in one file: it stands alone
     "reference": ["reference/surefill_reference.h"],

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "oracle/coverage.hpp"
+#include "oracle/edges.hpp"
 #include "oracle/exact.hpp"
 
 namespace surefill::oracle {
@@ -331,7 +332,7 @@ Cover answer_at(const Model& model, const Placed& placed, const Sample& sample, 
 // R9: near its edges all is open.
 class ClippedTriangle {
  public:
-  ClippedTriangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t) {
+  ClippedTriangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t) : edges_(t) {
     const auto step = [](const AxisModel& axis) {
       return axis.place_within + 2 * std::max(axis.blur, axis.divided_blur) +
              (axis.bits < 0 ? 0 : std::ldexp(1.0, -axis.bits));
@@ -343,23 +344,8 @@ class ClippedTriangle {
       stretch_[axis] = length / (length - m.lacks);
       moved_[axis] = m.moved;
     }
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vertex &p = t[(i + 1) % 3], &q = t[(i + 2) % 3];
-      const std::array<long double, 3> m{p.x, p.y, p.w}, n{q.x, q.y, q.w};
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t j = (c + 1) % 3, k = (c + 2) % 3;
-        edge_[i][c] = m[j] * n[k] - m[k] * n[j];
-        size_[i][c] = std::abs(m[j] * n[k]) + std::abs(m[k] * n[j]);
-      }
-    }
     sign_ = sign_of_d(t);
-    const std::array<long double, 3> m{t[0].x, t[0].y, t[0].w};
-    long double d = 0, terms = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-      d += m[c] * edge_[0][c];
-      terms += std::abs(m[c]) * size_[0][c];
-    }
-    thin_ = std::abs(d) <= kThin * terms;
+    thin_ = std::abs(edges_.d) <= kThin * edges_.d_magnitude;
   }
 
   Cover at(double sx, double sy) const {
@@ -368,10 +354,9 @@ class ClippedTriangle {
     for (std::size_t i = 0; i < 3; ++i) {
       bool positive = true, negative = true;
       for (unsigned n = 0; n < 4; ++n) {
-        const long double x = (sx + (n % 2 == 0 ? -distance_ : distance_) - moved_[0]) * stretch_[0];
-        const long double y = (sy + (n / 2 == 0 ? -distance_ : distance_) - moved_[1]) * stretch_[1];
-        const long double value = static_cast<long double>(sign_) * (edge_[i][0] * x + edge_[i][1] * y + edge_[i][2]);
-        const long double error = 0x1p-44L * (size_[i][0] * std::abs(x) + size_[i][1] * std::abs(y) + size_[i][2]);
+        const double x = (sx + (n % 2 == 0 ? -distance_ : distance_) - moved_[0]) * stretch_[0];
+        const double y = (sy + (n / 2 == 0 ? -distance_ : distance_) - moved_[1]) * stretch_[1];
+        const long double value = static_cast<long double>(sign_) * edges_.at(i, x, y), error = edges_.error(i, x, y);
         positive = positive && value > error;
         negative = negative && value < -error;
       }
@@ -382,7 +367,7 @@ class ClippedTriangle {
   }
 
  private:
-  std::array<std::array<long double, 3>, 3> edge_{}, size_{};
+  Edges edges_;
   std::array<double, 2> stretch_{}, moved_{};
   double distance_ = 0;
   int sign_ = 0;

@@ -13,12 +13,6 @@ constexpr int kSize = 8;
 constexpr std::size_t kMiddle = 2 * kSize + 2;                    // a sample that the large triangle covers in any case
 constexpr std::array<Point, 3> kLarge{{{0, 0}, {8, 0}, {0, 8}}};  // clockwise: a front face (F1)
 
-corpus::Outputs covering(const Rival& rival) {
-  corpus::Outputs wanted = rival.outputs();
-  wanted.barycentrics = wanted.attributes = false;
-  return wanted;
-}
-
 bool covers(Rival& rival, const corpus::Scene& scene) {
   return is_covered(rival.draw(scene, covering(rival)), kMiddle);
 }

@@ -86,18 +86,21 @@ double format_step(const Model& model) {
   return step;
 }
 
-// How far from the sample a value may be taken: R11's p, the blur, and half a step of the grid.
-double distance_of(const Model& model) {
-  double moved = 0;
-  for (const oracle::AxisModel* axis : {&model.x, &model.y}) {
-    moved =
-        std::max(moved, std::max(axis->blur, axis->divided_blur) + (axis->bits < 0 ? 0 : std::ldexp(1.0, -axis->bits)));
-  }
-  return std::max(model.distance, moved);
+// How far from the sample a value may be taken, x and y, in pixels before R3: R11's p, and beside it how well its place is
+// known: the blur, and of a grid a step, since coverage does not tell a sample from one a step further, if all positions
+// go a step further, too.
+std::array<double, 2> distance_of(const Model& model, const Frame& frame) {
+  const auto along = [&model](const oracle::AxisModel& axis, int length) {
+    const double known = std::max(axis.blur, axis.divided_blur) + axis.place_within;
+    const double step = axis.bits < 0 ? 0 : std::ldexp(1.0, -axis.bits);
+    return (model.distance + known + step) * length / (length - axis.lacks);
+  };
+  return {along(model.x, frame.width), along(model.y, frame.height)};
 }
 
 // What is granted to depth at the sample.
-Range depth_range(const Model& model, const Triangle& triangle, const Edges& edges, const Place& at, double* value) {
+Range depth_range(const Model& model, const Frame& frame, const Triangle& triangle, const Edges& edges, const Place& at,
+                  double* value) {
   std::array<double, 3> z{}, w{};
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -105,7 +108,7 @@ Range depth_range(const Model& model, const Triangle& triangle, const Edges& edg
     w[i] = triangle.vertices[i].w;
     largest = std::max(largest, std::abs(z[i] / w[i]));
   }
-  const Values values = values_around(edges, z, w, at.x, at.y, distance_of(model));
+  const Values values = values_around(edges, z, w, at.x, at.y, distance_of(model, frame));
   if (value) *value = values.value;
   const double more = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126 + format_step(model);
   return {values.range.low - more, values.range.high + more};
@@ -200,7 +203,7 @@ class Look {
     const Edges edges(triangle.vertices);
     const Place at = place_of(model, frame_, s);
     double z = 0;
-    const Range granted = depth_range(model, triangle, edges, at, &z);
+    const Range granted = depth_range(model, frame_, triangle, edges, at, &z);
     // What meets the clear value may not be seen.
     const bool greater = frame_.depth_test == DepthTest::greater;
     if (std::isfinite(model.clear) && (greater ? granted.low <= 0 : granted.high >= model.clear)) return;
@@ -225,7 +228,7 @@ class Look {
     const auto look = [&](const std::string& name, Deviation& deviation, const std::array<double, 3>& above,
                           const std::array<double, 3>& below, double largest, float actual) {
       if (!std::isfinite(largest)) return;
-      const Values values = values_around(edges, above, below, at.x, at.y, distance_of(model));
+      const Values values = values_around(edges, above, below, at.x, at.y, distance_of(model, frame_));
       const double more = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126;
       note(name, deviation, s, values.value, {values.range.low - more, values.range.high + more}, actual);
     };
@@ -291,6 +294,7 @@ std::uint64_t Counts::judged() const {
 }
 
 std::string why_open(const Terms& terms, const Frame& frame) {
+  if (terms.model.x.lacks >= frame.width || terms.model.y.lacks >= frame.height) return "a viewport of no size";
   for (const Draw& draw : frame.draws) {
     if (draw.conservative != Conservative::none) return "conservative rasterization has no model";
     for (const Vertex& v : draw.vertices) {
@@ -371,7 +375,7 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
           continue;
         }
         if (clips) {
-          const Range depth = depth_range(model, triangle, edges, at, nullptr);
+          const Range depth = depth_range(model, frame, triangle, edges, at, nullptr);
           if (draw.depth_mode == DepthMode::clip) cover = clipped(cover, depth, 0, 1);
           if (model.clipped && cover != Cover::no) {
             cover = clipped(cover, depth, (*model.clipped)[0], (*model.clipped)[1]);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The plane equations of section 2 in long double, with bounds of their errors: what values a triangle has around a
-// sample (R11).
+// What values a triangle has around a sample (R11).
 #ifndef SUREFILL_CERTIFY_JUDGE_PLANE_HPP
 #define SUREFILL_CERTIFY_JUDGE_PLANE_HPP
 
@@ -11,56 +10,30 @@
 #include <cstddef>
 #include <limits>
 
+#include "oracle/edges.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::judge {
 
-// Relative error of an edge function in long double, which is a double at least, with room to spare: 2^9 roundings.
-static_assert(std::numeric_limits<long double>::digits >= 53);
-inline constexpr long double kRoundings = std::numeric_limits<long double>::digits >= 64 ? 0x1p-55L : 0x1p-44L;
-
-struct Edges {
-  std::array<std::array<long double, 3>, 3> e{}, magnitude{};
-  long double d = 0, d_magnitude = 0;
-
-  explicit Edges(const std::array<Vertex, 3>& v) {
-    for (std::size_t i = 0; i < 3; ++i) {
-      const Vertex &p = v[(i + 1) % 3], &q = v[(i + 2) % 3];
-      const std::array<long double, 3> m{p.x, p.y, p.w}, n{q.x, q.y, q.w};
-      for (std::size_t c = 0; c < 3; ++c) {
-        const std::size_t j = (c + 1) % 3, k = (c + 2) % 3;
-        e[i][c] = m[j] * n[k] - m[k] * n[j];
-        magnitude[i][c] = std::abs(m[j] * n[k]) + std::abs(m[k] * n[j]);
-      }
-    }
-    const std::array<long double, 3> m{v[0].x, v[0].y, v[0].w};
-    for (std::size_t c = 0; c < 3; ++c) {
-      d += m[c] * e[0][c];
-      d_magnitude += std::abs(m[c]) * magnitude[0][c];
-    }
-  }
-  long double at(std::size_t i, double x, double y) const { return e[i][0] * x + e[i][1] * y + e[i][2]; }
-  long double error(std::size_t i, double x, double y) const {
-    return kRoundings * (magnitude[i][0] * std::abs(x) + magnitude[i][1] * std::abs(y) + magnitude[i][2]);
-  }
-};
+using oracle::Edges;
+using oracle::kRoundings;
 
 struct Range {
   double low, high;
 };
 
-// The value (sum above_i E_i) / (sum below_i E_i) at the sample, and within `distance` of it each way.
+// The value (sum above_i E_i) / (sum below_i E_i) at the sample, and so far from it each way, x and y.
 struct Values {
   Range range;
   double value;
 };
 inline Values values_around(const Edges& edges, const std::array<double, 3>& above, const std::array<double, 3>& below,
-                            double x, double y, double distance) {
+                            double x, double y, const std::array<double, 2>& distance) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   Values result{{kInfinity, -kInfinity}, 0};
   long double sign = 0;
-  for (const double dx : {-distance, 0.0, distance}) {
-    for (const double dy : {-distance, 0.0, distance}) {
+  for (const double dx : {-distance[0], 0.0, distance[0]}) {
+    for (const double dy : {-distance[1], 0.0, distance[1]}) {
       long double numerator = 0, denominator = 0;
       for (std::size_t i = 0; i < 3; ++i) {
         const long double e = edges.at(i, x + dx, y + dy);

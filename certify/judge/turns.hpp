@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/judge/rival.hpp"
+#include "certify/judge/probes.hpp"
 
 namespace surefill::judge {
 
@@ -31,17 +31,11 @@ inline constexpr int kTurnLength = 16;  // of the target, along the axis
 // All vertices lie on the target, and no triangle is of the facing that is `culled`. Throws Failure, Declined.
 std::vector<Turn> measure_turns(Rival& rival, Cull culled);
 
+// The same at all pixels that the table leaves out, on one axis.
+std::vector<Turn> measure_more_turns(Rival& rival, Cull culled, int axis);
+
 // A line for each axis and side, for people.
 std::string turns_text(const std::vector<Turn>& turns);
-
-// Is the sample of element s covered, by whichever output there is?
-bool is_covered(const corpus::Image& image, std::size_t s);
-
-// A scene of one draw, W = 1, at depth z.
-struct Point {
-  float x, y;
-};
-corpus::Scene flat_scene(int width, int height, const std::vector<std::array<Point, 3>>& triangles, float z = 0.5f);
 
 }  // namespace surefill::judge
 

@@ -230,9 +230,9 @@ std::string turns_problem(const std::vector<Turn>& turns) {
   const auto found = std::count_if(turns.begin(), turns.end(), [](const Turn& t) { return t.found; });
   if (found == 0) return "it covers no sample of any triangle on a target of 16 x 40 pixels";
   double spread = 0;
-  for (const Turn& t : turns) spread = std::max(spread, t.spread);
-  if (spread > 1.0 / 16) return text("near an edge it covers some samples and not others, over %.3g pixels", spread);
-  return "where edges stop covering samples, no place of the samples and no grid explains";
+  for (const Turn& t : turns) spread = std::max(spread, t.found ? t.spread : 0);
+  if (spread > 1.0 / 8) return text("near an edge it covers some samples and not others, over %.3g pixels", spread);
+  return "";
 }
 
 }  // namespace surefill::judge

@@ -21,7 +21,7 @@ std::vector<std::string> departures(const Model& model);
 // What coverage depends on, as far as it is not what `from` says: the same sentences, and "its grid has 8 bits, not 4".
 std::vector<std::string> differences(const Model& from, const Model& to);
 
-// Where no model explains the turns: what they show.
+// What the turns show that no rasterizer may do; empty if there is nothing.
 std::string turns_problem(const std::vector<Turn>& turns);
 
 }  // namespace surefill::judge

@@ -10,10 +10,13 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
+#include <ctime>
 #include <fstream>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "bench/inexact.hpp"
@@ -68,30 +71,44 @@ void count_triangles(benchmark::State& state, const Workload& work) {
   state.counters["triangles"] = static_cast<double>(work.indices.size() / 3);
 }
 
-void surefill_draws(benchmark::State& state, const std::string& name, Output output, Options options,
-                    Mode mode = Mode::plain) {
-  const Workload& work = workload(name);
-  std::vector<std::uint32_t> count(output == Output::count ? kSamples : 0);
-  std::vector<std::uint32_t> index(output >= Output::visibility ? kSamples : 0);
-  std::vector<float> depth(output >= Output::depth ? kSamples : 0);
-  std::vector<float> shaded(output == Output::attributes ? 4 * kSamples : 0), values;
-  Target target;
-  target.width = kWidth, target.height = kHeight;
-  target.count = count, target.index = index, target.depth = depth;
-  Draw triangles;
-  triangles.vertices = work.vertices, triangles.indices = work.indices;
-  if (mode == Mode::plain || mode == Mode::grid) triangles.depth_mode = DepthMode::clip;
-  if (mode == Mode::grid) triangles.grid = Grid{};
-  if (mode == Mode::over) triangles.conservative = Conservative::over;
-  AttributeTarget attribute_target{shaded, 4};
-  AttributeArray attribute;
-  if (output == Output::attributes) {
+// What is drawn, and the buffers for it.
+struct Frame {
+  Frame(const Workload& work, Output output, Mode mode)
+      : count(output == Output::count ? kSamples : 0),
+        index(output >= Output::visibility ? kSamples : 0),
+        depth(output >= Output::depth ? kSamples : 0),
+        shaded(output == Output::attributes ? 4 * kSamples : 0),
+        attribute_target{shaded, 4} {
+    target.width = kWidth, target.height = kHeight;
+    target.count = count, target.index = index, target.depth = depth;
+    triangles.vertices = work.vertices, triangles.indices = work.indices;
+    if (mode == Mode::plain || mode == Mode::grid) triangles.depth_mode = DepthMode::clip;
+    if (mode == Mode::grid) triangles.grid = Grid{};
+    if (mode == Mode::over) triangles.conservative = Conservative::over;
+    if (output != Output::attributes) return;
     values = values_of(work);
     attribute.values = values, attribute.components = 4;
     triangles.attributes = {&attribute, 1}, target.attributes = {&attribute_target, 1};
   }
+  Frame(const Frame&) = delete;
+  Frame& operator=(const Frame&) = delete;
+
+  std::vector<std::uint32_t> count, index;
+  std::vector<float> depth, shaded, values;
+  Target target;
+  Draw triangles;
+
+ private:
+  AttributeTarget attribute_target;
+  AttributeArray attribute;
+};
+
+void surefill_draws(benchmark::State& state, const std::string& name, Output output, Options options,
+                    Mode mode = Mode::plain) {
+  const Workload& work = workload(name);
+  Frame frame(work, output, mode);
   for (auto _ : state) {
-    const Status status = render(target, {&triangles, 1}, nullptr, options);
+    const Status status = render(frame.target, {&frame.triangles, 1}, nullptr, options);
     if (status != Status::ok) return state.SkipWithError(status_text(status));
   }
   count_triangles(state, work);
@@ -121,14 +138,18 @@ void llvmpipe_draws(benchmark::State& state, const std::string& name, bool color
   count_triangles(state, work);
 }
 
+// On one of Highway's targets; 0: on the best.
+void force_target(std::int64_t target) {
+  hwy::SetSupportedTargetsForTest(target);
+  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+}
+
 // The same on one of Highway's targets.
 void target_draws(benchmark::State& state, const std::string& name, Output output, std::int64_t target) {
   if ((hwy::SupportedTargets() & target) == 0) return state.SkipWithError("this machine has it not");
-  hwy::SetSupportedTargetsForTest(target);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  force_target(target);
   surefill_draws(state, name, output, {});
-  hwy::SetSupportedTargetsForTest(0);
-  hwy::GetChosenTarget().Update(hwy::SupportedTargets());
+  force_target(0);
 }
 
 // The least that any z-buffer has to do for one full-screen layer.
@@ -151,17 +172,32 @@ void memory_written(benchmark::State& state) {
   }
 }
 
-// Draws depth so many times and nothing else, for tools that count instructions. Returns the exit status.
-int draw_only(const char* name, int times) {
+// Draws so many times and nothing else, for tools that count instructions and that sample; prints the fastest and the
+// middle in milliseconds of this thread. Returns the exit status.
+int draw_only(const std::string& name, int times, const std::string& output, const std::string& target) {
+  static const std::map<std::string, std::pair<Output, Mode>> kOutputs = {
+      {"depth", {Output::depth, Mode::plain}},
+      {"unclipped", {Output::depth, Mode::unclipped}},
+      {"visibility", {Output::visibility, Mode::plain}},
+      {"attributes", {Output::attributes, Mode::plain}},
+      {"count", {Output::count, Mode::plain}},
+      {"conservative", {Output::count, Mode::over}},
+      {"grid", {Output::depth, Mode::grid}}};
+  const auto found = kOutputs.find(output);
+  if (found == kOutputs.end() || times < 1 || (target != "" && target != "AVX2")) return 2;
+  if (target == "AVX2") force_target(HWY_AVX2);
   const Workload& work = workload(name);
-  std::vector<float> depth(kSamples);
-  Target target;
-  target.width = kWidth, target.height = kHeight, target.depth = depth;
-  Draw draw;
-  draw.vertices = work.vertices, draw.indices = work.indices, draw.depth_mode = DepthMode::clip;
+  Frame frame(work, found->second.first, found->second.second);
+  static Context context;
+  const Options options{.threads = threads(), .context = &context};
+  std::vector<double> milliseconds;
   for (int n = 0; n < times; ++n) {
-    if (render(target, {&draw, 1}) != Status::ok) return 1;
+    const std::clock_t begin = std::clock();
+    if (render(frame.target, {&frame.triangles, 1}, nullptr, options) != Status::ok) return 1;
+    milliseconds.push_back(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
   }
+  std::sort(milliseconds.begin(), milliseconds.end());
+  std::printf("%.2f %.2f\n", milliseconds.front(), milliseconds[milliseconds.size() / 2]);
   return 0;
 }
 
@@ -249,9 +285,11 @@ void add_context() {
 }  // namespace
 }  // namespace surefill::bench
 
-// surefill_bench --draw NAME TIMES: draws and measures nothing.
+// surefill_bench --draw NAME TIMES [OUTPUT [AVX2]]: see draw_only.
 int main(int argc, char** argv) {
-  if (argc == 4 && std::string(argv[1]) == "--draw") return surefill::bench::draw_only(argv[2], std::atoi(argv[3]));
+  if (argc >= 4 && argc <= 6 && std::string(argv[1]) == "--draw")
+    return surefill::bench::draw_only(argv[2], std::atoi(argv[3]), argc > 4 ? argv[4] : "depth",
+                                      argc > 5 ? argv[5] : "");
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   surefill::bench::add_context();

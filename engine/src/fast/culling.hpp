@@ -72,7 +72,8 @@ inline bool reach_of_hull(const CullingBox& box, const DrawJob& job, PixelBox* p
 }
 
 // Is everything in the hull behind what has been drawn? `tile_of(column, row)` is a tile's row of one: what it holds.
-// Only for frames without counts.
+// Only for frames without counts. It stands on two rules: a fragment as far as what is stored leaves no trace (V1), and
+// its depth is that of its place in the hull (I1). A depth test that passes equals, or a bias, needs another comparison.
 template <typename TileOf>
 bool is_hidden(const CullingBox& box, const DrawJob& job, const TileOf& tile_of) {
   PixelBox r{};

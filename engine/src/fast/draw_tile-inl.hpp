@@ -69,9 +69,9 @@ class TileDrawer : public HierarchicalZ {
   }
 
   void Begin(int column) {
-    SelectTile(column);
+    const bool fresh = SelectTile(column);
     next_is_open_ = column + 1 < tiles_.end && tiles_.is_open(column + 1);
-    if (kDepth) UpdateFar();
+    if (kDepth) fresh ? ForgetFar() : UpdateFar();
   }
   void End(int column) {
     if (kDepth) tiles_.far[column - tiles_.begin] = tile_far_;
@@ -101,7 +101,7 @@ class TileDrawer : public HierarchicalZ {
 
   // Draws records of one draw in their order.
   void Draw(std::uint32_t* list, std::size_t size) {
-    constexpr std::uint32_t kSpecial = Record::kSlowDepth | Record::kBorder | Record::kByWinding;
+    constexpr std::uint32_t kSpecial = Record::kSlowDepth | Record::kByWinding;
     const bool streams = frame_.visitor != nullptr, all_special = streams || ordered_;
     const DepthMode mode = job_->draw->depth_mode;
     ranged_ = kDepth && (mode == DepthMode::clamp || job_->draw->grid.has_value());
@@ -114,19 +114,23 @@ class TileDrawer : public HierarchicalZ {
       const Record& r = records_[list[i]];
       if (HWY_LIKELY(!all_special && !r.has(kSpecial))) {
         if (!r.has(Record::kSmall)) {
+          if (hides_ && IsHiddenHere(r)) continue;
           DrawSmall();
           r.has(Record::kThin) ? Large<true>(r, false) : Large<false>(r, false);
           continue;
         }
+        // In the order of the list in each cell, so that of equal depths the first stays; depth alone does not tell. What
+        // a tiny triangle covers is within its box.
         if (HWY_LIKELY(!r.has(Record::kClip))) {
-          // In the order of the list in each cell, so that of equal depths the first stays; depth alone does not tell.
           if (r.has(Record::kTiny) && !(kWinner && IsNoted(r))) {
             DrawTiny(r);
             continue;
           }
-          AddSmall(r, kDepth);
-          if (slots_ == kSlots) DrawSmall();
-          continue;
+          if (HWY_LIKELY(!r.has(Record::kBorder))) {
+            AddSmall(r, kDepth);
+            if (slots_ == kSlots) DrawSmall();
+            continue;
+          }
         }
       }
       DrawSmall();
@@ -271,51 +275,74 @@ class TileDrawer : public HierarchicalZ {
   }
 
   // ---- large: the areas of the tile that the box meets and no edge excludes
+  // Of a record whose depth is known.
+  HWY_INLINE bool IsHiddenHere(const Record& r) const {
+    const double z = DepthAtTile(r) - r.large.z_error;
+    const double fall = std::min(0.0, r.large.z_x) + std::min(0.0, r.large.z_y);
+    return IsHidden(z + (kTileSize - 1) * fall, r.z_most, tile_far_);
+  }
+  // At the first sample.
+  HWY_INLINE double DepthAtTile(const Record& r) const {
+    return r.large.z + (r.large.z_x * (tile_x_ - r.origin_x()) + r.large.z_y * (tile_y_ - r.origin_y()));
+  }
   template <bool kThin>
   HWY_NOINLINE void Large(const Record& r, bool special) {
     const bool depth = NeedsDepth(r), hides = hides_ && depth;
-    const double error = r.large.z_error;
     TilePlane plane;
-    plane.z = r.large.z + (r.large.z_x * (tile_x_ - r.origin_x()) + r.large.z_y * (tile_y_ - r.origin_y()));
+    plane.z = DepthAtTile(r);
     plane.fall = std::min(0.0, r.large.z_x) + std::min(0.0, r.large.z_y);
     plane.rise = std::max(0.0, r.large.z_x) + std::max(0.0, r.large.z_y);
     constexpr double kReach = kTileSize - 1;
-    if (hides && IsHidden(plane.z + (kReach * plane.fall - error), r.z_most, tile_far_)) return;
     Clip clip = Clip::in;
     if (HWY_UNLIKELY(r.has(Record::kClip)) && !special) clip = ClipOf(r, plane, plane.z, kReach);
     if (clip == Clip::out) return;
+    const std::uint64_t visible = !kThin && hides ? VisibleBlocks(r, plane.z, plane.fall) : ~std::uint64_t{0};
+    if (visible == 0) return;
     std::uint32_t possible = SetUpAreas(r, plane);
     if (possible == 0) return;
     const std::uint32_t columns = BitRange((r.x0 - tile_x_) >> kCellLog2, (r.x1 - tile_x_) >> kCellLog2);
     const std::uint32_t rows = BitRange((r.y0 - tile_y_) >> kCellLog2, (r.y1 - tile_y_) >> kCellLog2);
-    if (kCount && !kDepth && plane.holds_tile && (columns & rows) == 0xFFFF && clip == Clip::in && !special) {
+    // Of those, the ones that it holds whole, where that matters.
+    const bool border = r.has(Record::kBorder);
+    const std::uint32_t inner_columns =
+        border ? BitRange((r.x0 - tile_x_ + 3) >> 2, ((r.x1 - tile_x_ + 1) >> 2) - 1) : 0xFFFF;
+    const std::uint32_t inner_rows =
+        border ? BitRange((r.y0 - tile_y_ + 3) >> 2, ((r.y1 - tile_y_ + 1) >> 2) - 1) : 0xFFFF;
+    if (kCount && !kDepth && plane.holds_tile && (columns & rows & inner_columns & inner_rows) == 0xFFFF &&
+        clip == Clip::in && !special) {
       ++whole_tile_;
       return;
     }
     if (depth) SetUpDepth(r, plane);
-    const double dip = 7 * plane.fall - error;
-    const double dips[4] = {dip, dip + 8 * r.large.z_x, dip + 8 * r.large.z_y, dip + 8 * (r.large.z_x + r.large.z_y)};
-    std::size_t blocks = 0;
-    std::uint8_t block_list[kTileBlocks];  // whole blocks, of which `far` may become less
-    CellList doubtful;                     // cells that are drawn as special ones
+    std::uint64_t whole = 0;  // blocks, of which `far` may become less
     for (; possible != 0; possible &= possible - 1) {
       const auto n = static_cast<std::uint32_t>(std::countr_zero(possible));
+      const std::uint32_t visible_cells = kThin ? 0xFFFF : kCellsOfBlocks[visible >> 4 * n & 15];
+      if (!kThin && visible_cells == 0) continue;
       std::uint32_t full = 0;
-      std::uint32_t cells = SetUpCells<kThin>(plane, n, special || clip == Clip::some, full);
-      cells &= (columns >> (n & 3) * 4 & 15) * 0x1111u & kCellsOfRows[rows >> (n >> 2) * 4 & 15];
-      const int area_x = static_cast<int>(n & 3) * kAreaSize, area_y = static_cast<int>(n >> 2) * kAreaSize;
-      const double z = plane.z + (r.large.z_x * area_x + r.large.z_y * area_y);
+      std::uint32_t cells = SetUpCells<kThin>(plane, n, special || border || clip == Clip::some, full);
+      cells &= CellsOfArea(n, columns, rows);
       if (!kThin && hides) {
-        cells &= kCellsOfBlocks[VisibleBlocks(z, dips, r.z_most, n)];
-        blocks += ListBlocks(cells & full, n, block_list + blocks);
+        cells &= visible_cells;
+        whole |= WholeBlocks(cells & full) << 4 * n;
       }
       if (cells == 0) continue;
       if (depth) PlaceDepth(n);
-      const Clip of_area = HWY_UNLIKELY(clip == Clip::some) ? ClipOf(r, plane, z, kAreaSize - 1) : Clip::in;
+      Clip of_area = Clip::in;
+      if (HWY_UNLIKELY(clip == Clip::some)) {
+        const int area_x = static_cast<int>(n & 3) * kAreaSize, area_y = static_cast<int>(n >> 2) * kAreaSize;
+        const double z = plane.z + (r.large.z_x * area_x + r.large.z_y * area_y);
+        of_area = ClipOf(r, plane, z, kAreaSize - 1);
+      }
       if (of_area == Clip::out) continue;
       if (HWY_UNLIKELY(special || of_area == Clip::some)) {
-        doubtful.Append(n, cells);
+        doubtful_.Append(n, cells);
         continue;
+      }
+      if (HWY_UNLIKELY(border)) {
+        const std::uint32_t inner = CellsOfArea(n, inner_columns, inner_rows);
+        doubtful_.Append(n, cells & ~inner);
+        cells &= inner;
       }
       if (kCount && !kDepth && (cells & full) == 0xFFFF) {
         ++whole_areas_[n];
@@ -326,20 +353,15 @@ class TileDrawer : public HierarchicalZ {
     }
     record_[0] = &r, small_doubt_ = plane.doubt;
     ranged_ ? DrawListed<kThin, true>(r) : DrawListed<kThin, false>(r);
-    if (HWY_UNLIKELY(doubtful.size != 0)) DrawSpecialCells<false>(doubtful);
+    if (HWY_UNLIKELY(doubtful_.size != 0)) DrawSpecialCells<false>(doubtful_);
     small_doubt_ = 0;
-    for (std::size_t i = 0; i < blocks; ++i) UpdateBlockFar(block_list[i]);
-    if (blocks != 0) UpdateTileFar();
+    if (whole == 0) return;
+    for (; whole != 0; whole &= whole - 1) UpdateBlockFar(static_cast<std::size_t>(std::countr_zero(whole)));
+    UpdateTileFar();
   }
-  // The blocks that are whole in a set of cells of area n, as numbers in the tile. Returns how many they are.
-  static HWY_INLINE std::size_t ListBlocks(std::uint32_t cells, std::uint32_t n, std::uint8_t* list) {
-    std::size_t size = 0;
-    cells &= cells >> 1, cells &= (cells >> 4) & 0x0505;  // of each whole block, its first cell
-    for (; cells != 0; cells &= cells - 1) {
-      const auto cell = static_cast<std::uint32_t>(std::countr_zero(cells));
-      list[size++] = static_cast<std::uint8_t>(((n >> 2) * 2 + (cell >> 3)) * 8 + (n & 3) * 2 + (cell >> 1 & 1));
-    }
-    return size;
+  // The cells of area n that lie in columns and rows of the tile's cells.
+  static HWY_INLINE std::uint32_t CellsOfArea(std::uint32_t n, std::uint32_t columns, std::uint32_t rows) {
+    return (columns >> (n & 3) * 4 & 15) * 0x1111u & kCellsOfRows[rows >> (n >> 2) * 4 & 15];
   }
   template <bool kThin, bool kRanged>
   HWY_INLINE void DrawListed(const Record& r) {
@@ -614,7 +636,7 @@ class TileDrawer : public HierarchicalZ {
   std::int32_t small_doubt_ = 0;  // the largest of those noted: at worst, doubts are looked into that are none
   const Record* record_[kSlots];
   std::uint32_t noted_[24] = {};  // of each row of cells from -4 on, the columns from -4 on of cells that are noted
-  CellList partly_, wholly_;
+  CellList partly_, wholly_, doubtful_;  // doubtful: drawn as special ones
   std::uint32_t whole_tile_ = 0, whole_areas_[16] = {};
 
   // Slot by slot of small triangles, or area by area of a large one; of that, edge_step_ and the other steps have but

@@ -26,16 +26,17 @@ class Fragments {
   }
 
  protected:
-  // The tile in a column of the row; it gets values, if it has none.
-  void SelectTile(int column) {
+  // The tile in a column of the row; it gets values, if it has none. Is it all infinitely far?
+  bool SelectTile(int column) {
     tile_x_ = column * kTileSize, tile_y_ = tiles_.row * kTileSize;
     const std::size_t offset = tiles_.tile(column);
     depth_ = tiles_.depth != nullptr ? tiles_.depth + offset : nullptr;
     winner_ = tiles_.winner != nullptr ? tiles_.winner + offset : nullptr;
     count_ = tiles_.count != nullptr ? tiles_.count + offset : nullptr;
     std::uint8_t& opened = tiles_.opened[column - tiles_.begin];
-    if (opened == 0) Open();
+    if (opened != 0) return false;
     opened = 1;
+    return Open();
   }
 
   void SelectDraw(const DrawJob& job) {
@@ -59,10 +60,24 @@ class Fragments {
     return exact_.draws(Position(x, y), job_->shift, &rungs_);
   }
 
+  // The depth of a large record's sample, as it is kept, if its plane in double tells: a tile's parts are coarser. Not
+  // 0, whose sign it does not tell.
+  bool DepthByPlane(const Record& r, std::size_t offset, float& depth) {
+    if (r.has(Record::kSmall | Record::kSlowDepth | Record::kClip | Record::kByWinding)) return false;
+    const double z = r.large.z + (r.large.z_x * (tile_x_ + column_of(offset) - r.origin_x()) +
+                                  r.large.z_y * (tile_y_ + row_of(offset) - r.origin_y()));
+    const auto rounded = [&](double v) { return std::clamp(static_cast<float>(v), r.z_least, r.z_most); };
+    depth = rounded(z - r.large.z_error);
+    if (depth != rounded(z + r.large.z_error) || depth == 0) return false;
+    ++rungs_.values_by_filter;
+    return true;
+  }
+
   // Draws a covered sample. `counted`: it is in the counts already.
   HWY_NOINLINE void ExactFragment(const Record& r, std::size_t offset, bool counted) {
     float z = 0;
-    if (depth_ != nullptr || r.has(Record::kClip | Record::kByWinding)) {
+    const bool needed = depth_ != nullptr || r.has(Record::kClip | Record::kByWinding);
+    if (needed && !DepthByPlane(r, offset, z)) {
       exact_.use(*job_->draw, r.position);
       if (!exact_.depth(Position(tile_x_ + column_of(offset), tile_y_ + row_of(offset)), &z, &rungs_)) return;
       if (job_->greater) z = 0.0f - z;
@@ -187,17 +202,17 @@ class Fragments {
  private:
   SamplePosition Position(int x, int y) const { return {x + job_->sample.x, y + job_->sample.y}; }
 
-  // The empty image, in the tile at hand.
-  HWY_NOINLINE void Open() {
+  // The empty image, in the tile at hand. Is all of it infinitely far?
+  HWY_NOINLINE bool Open() {
     constexpr float kInfinity = std::numeric_limits<float>::infinity();
     if (count_ != nullptr) std::fill_n(count_, kTileSamples, 0u);
     if (winner_ != nullptr) std::fill_n(winner_, kTileSamples, kNoTriangle);
-    if (depth_ == nullptr) return;
+    if (depth_ == nullptr) return true;
     std::fill_n(depth_, kTileSamples, kInfinity);
     const Target& target = *frame_.target;
     const bool initial = !target.initial_depth.empty();
     const int columns = target.width - tile_x_, rows = target.height - tile_y_;
-    if (!initial && columns >= kTileSize && rows >= kTileSize) return;
+    if (!initial && columns >= kTileSize && rows >= kTileSize) return true;
     for (int y = 0; y < kTileSize; ++y) {
       for (int x = 0; x < kTileSize; ++x) {
         float& depth = depth_[offset_in_tile(x, y)];
@@ -208,6 +223,7 @@ class Fragments {
         }
       }
     }
+    return false;
   }
 
   // Lanes from an offset on that lie in the box of a record.

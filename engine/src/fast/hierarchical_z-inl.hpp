@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Hierarchical z: how far the tile at hand and its blocks reach, so that what lies behind is left out.
+// Hierarchical z: how far the tile at hand and its blocks reach, so that what lies behind is left out. It stands on the
+// same two rules as is_hidden (culling.hpp).
 // Included once for each instruction set by kernels.cpp.
 #if defined(SUREFILL_SRC_FAST_HIERARCHICAL_Z_INL_HPP) == defined(HWY_TARGET_TOGGLE)
 #ifdef SUREFILL_SRC_FAST_HIERARCHICAL_Z_INL_HPP
@@ -16,6 +17,10 @@ namespace surefill::fast::HWY_NAMESPACE {
 namespace {  // not visible to the linker
 namespace hn = hwy::HWY_NAMESPACE;
 
+// The columns and rows of blocks in a row of areas, area by area.
+alignas(64) constexpr float kBlockColumn[16] = {0, 1, 0, 1, 2, 3, 2, 3, 4, 5, 4, 5, 6, 7, 6, 7};
+alignas(64) constexpr float kBlockRow[16] = {0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1, 0, 0, 1, 1};
+
 class HierarchicalZ : public Fragments {
  public:
   using Fragments::Fragments;
@@ -26,11 +31,15 @@ class HierarchicalZ : public Fragments {
     for (std::size_t block = 0; block < kTileBlocks; ++block) UpdateBlockFar(block);
     UpdateTileFar();
   }
-  // Block 8 y + x of the tile: four cells.
+  // The same of a tile that is all infinitely far.
+  void ForgetFar() {
+    tile_far_ = std::numeric_limits<float>::infinity();
+    std::fill_n(block_far_, kTileBlocks, tile_far_);
+  }
+  // Block b of area n has the number 4 n + b: four cells.
   HWY_INLINE void UpdateBlockFar(std::size_t block) {
     const CellFloat df;
-    const float* const depth =
-        depth_ + offset_in_tile(static_cast<int>(block & 7) * 8, static_cast<int>(block >> 3) * 8);
+    const float* const depth = depth_ + (block >> 2) * kAreaSamples + (block >> 1 & 1) * 128 + (block & 1) * 32;
     auto far = hn::Load(df, depth);
     for (std::size_t n = 0; n < 4; ++n) {
       const std::size_t cell = (n & 1) * 16 + (n >> 1) * 64;
@@ -52,29 +61,39 @@ class HierarchicalZ : public Fragments {
     return with_identifiers_ ? static_cast<float>(nearest) > there : nearest >= there;
   }
 
-  // Which of the four blocks of area n may hold something farther than the triangle: bit 0 the upper left one, then to
-  // the right, then below. z: depth at the area's first sample; dips: to less than any in each block.
-  HWY_INLINE std::uint32_t VisibleBlocks(double z, const double (&dips)[4], float most, std::uint32_t n) const {
-    const float* const far = block_far_ + (n >> 2) * 16 + (n & 3) * 2;
-#if HWY_ARCH_X86 && HWY_TARGET <= HWY_AVX2
-    const hn::CappedTag<double, 4> d;
-    const hn::CappedTag<float, 4> df;
-    const hn::CappedTag<float, 2> row;
-    const auto nearest = hn::Min(hn::Add(hn::Set(d, z), hn::LoadU(d, dips)), hn::Set(d, most));
-    const auto there = hn::PromoteTo(d, hn::Combine(df, hn::LoadU(row, far + 8), hn::LoadU(row, far)));
-    const auto hidden =
-        with_identifiers_ ? hn::Gt(hn::PromoteTo(d, hn::DemoteTo(df, nearest)), there) : hn::Ge(nearest, there);
-    return ~Bits(d, hidden) & 15;
-#else
-    std::uint32_t visible = 0;
-    for (std::size_t i = 0; i < 4; ++i)
-      visible |= static_cast<std::uint32_t>(!IsHidden(z + dips[i], most, far[(i >> 1) * 8 + (i & 1)])) << i;
+  // Which blocks of the tile may hold something farther than a large triangle. z: its depth at the tile's first sample;
+  // fall: its largest change to less in one step each way. kFloatBlocks bounds what float32 adds to the error, in units
+  // of the plane's size and of the error itself (docs/precision.md).
+  HWY_INLINE std::uint64_t VisibleBlocks(const Record& r, double z, double fall) const {
+    const CellFloat d;
+    constexpr double kFloatBlocks = 0x1p-20, kSubnormal = 0x1p-120;
+    const double size = std::fabs(z) + kTileSize * (std::fabs(r.large.z_x) + std::fabs(r.large.z_y));
+    const double error = r.large.z_error + (kFloatBlocks * (size + r.large.z_error) + kSubnormal);
+    const double least = z + (kBlockSize - 1) * fall - error;
+    const float start = static_cast<float>(least), x = static_cast<float>(kBlockSize * r.large.z_x),
+                y = static_cast<float>(kBlockSize * r.large.z_y);
+    const auto most = hn::Set(d, r.z_most);
+    std::uint64_t visible = 0;
+    for (std::size_t i = 0; i < 16; i += kCellLanes) {
+      const auto steps = hn::Add(hn::Mul(hn::Set(d, x), hn::Load(d, kBlockColumn + i)),
+                                 hn::Mul(hn::Set(d, y), hn::Load(d, kBlockRow + i)));
+      for (std::size_t row = 0; row < 4; ++row) {  // of areas
+        const auto nearest = hn::Min(hn::Add(hn::Set(d, start + static_cast<float>(2 * row) * y), steps), most);
+        const auto far = hn::Load(d, block_far_ + 16 * row + i);
+        const auto hidden = with_identifiers_ ? hn::Gt(nearest, far) : hn::Ge(nearest, far);
+        visible |= static_cast<std::uint64_t>(Bits(d, hn::Not(hidden))) << (16 * row + i);
+      }
+    }
     return visible;
-#endif
+  }
+  // The blocks of an area that a set of cells has whole.
+  static HWY_INLINE std::uint64_t WholeBlocks(std::uint32_t cells) {
+    cells &= cells >> 1, cells &= cells >> 4;  // of each, its first cell
+    return (cells & 1) | (cells >> 1 & 2) | (cells >> 6 & 4) | (cells >> 7 & 8);
   }
 
   float tile_far_ = 0;
-  alignas(64) float block_far_[kTileBlocks];  // no depth in the block is larger
+  alignas(64) float block_far_[kTileBlocks];  // area by area: no depth in the block is larger
 };
 
 }  // namespace

@@ -20,69 +20,75 @@ class Store {
         tiles_(tiles),
         samples_(static_cast<std::size_t>(frame.target->samples)) {}
 
+  // A row of cells at a time, one output after the other: what is read stays in the first cache, and a processor holds
+  // few pages that it writes to.
   void run() {
     const int y0 = tiles_.row * kTileSize, y1 = std::min(y0 + kTileSize, target_.height);
-    for (int column = tiles_.begin; column < tiles_.end; ++column) {
-      x_ = column * kTileSize;
-      columns_ = static_cast<std::size_t>(std::min(kTileSize, target_.width - x_));
-      for (int y = y0; y < y1; ++y) {
-        at_ = frame_.sample_index(x_, y);
-        if (!tiles_.is_open(column)) {
-          empty();
-          continue;
-        }
-        offset_ = tiles_.offset(x_, y);
-        if (!target_.count.empty()) count();
-        if (!target_.depth.empty()) depth();
-        if (!target_.index.empty()) index();
-      }
+    for (int y = y0; y < y1; y += kCellSize) {
+      const int end = std::min(y + kCellSize, y1);
+      if (!target_.count.empty()) each_row(y, end, [this](bool open) { open ? count() : fill(target_.count, 0u); });
+      if (!target_.depth.empty()) each_row(y, end, [this](bool open) { open ? depth() : empty_depths(); });
+      if (!target_.index.empty())
+        each_row(y, end, [this](bool open) { open ? index() : fill(target_.index, kNoTriangle); });
     }
   }
 
  private:
-  // A row of a tile that nothing was drawn to.
-  void empty() const {
-    const float far = empty_depth(target_.depth_test);
-    const bool initial = !target_.initial_depth.empty();
+  // write(open) for each tile's part of the rows [begin, end): where something was drawn, and where not.
+  template <typename Write>
+  void each_row(int begin, int end, const Write& write) {
+    for (int y = begin; y < end; ++y) {
+      for (int column = tiles_.begin; column < tiles_.end; ++column) {
+        const int x = column * kTileSize;
+        columns_ = static_cast<std::size_t>(std::min(kTileSize, target_.width - x));
+        at_ = frame_.sample_index(x, y), offset_ = tiles_.offset(x, y);
+        write(tiles_.is_open(column));
+      }
+    }
+  }
+
+  template <typename T>
+  void fill(std::span<T> out, T value) const {
     if (samples_ == 1) {
-      if (!target_.count.empty()) std::fill_n(&target_.count[at_], columns_, 0u);
-      if (!target_.index.empty()) std::fill_n(&target_.index[at_], columns_, kNoTriangle);
-      if (!target_.depth.empty() && !initial) std::fill_n(&target_.depth[at_], columns_, far);
-      if (!target_.depth.empty() && initial)
-        std::memmove(&target_.depth[at_], &target_.initial_depth[at_], columns_ * sizeof(float));
+      std::fill_n(&out[at_], columns_, value);
       return;
     }
-    for (std::size_t at = at_; at < at_ + columns_ * samples_; at += samples_) {
-      if (!target_.count.empty()) target_.count[at] = 0;
-      if (!target_.index.empty()) target_.index[at] = kNoTriangle;
-      if (!target_.depth.empty()) target_.depth[at] = initial ? target_.initial_depth[at] : far;
+    for (std::size_t n = 0; n < columns_; ++n) out[at_ + n * samples_] = value;
+  }
+  void empty_depths() const {
+    const auto& initial = target_.initial_depth;
+    if (initial.empty()) {
+      fill(target_.depth, empty_depth(target_.depth_test));
+    } else if (samples_ == 1) {
+      std::memmove(&target_.depth[at_], &initial[at_], columns_ * sizeof(float));
+    } else {
+      for (std::size_t at = at_; at < at_ + columns_ * samples_; at += samples_) target_.depth[at] = initial[at];
     }
   }
 
   // Writes a row of a tile to `out`: value(v, at) of each sample's v, at the index `at`. Four columns are neighbours.
   template <typename T, typename Value>
   void row(const T* tile, std::span<T> out, const Value& value) const {
-    const T* from = tile + offset_;
-    std::size_t at = at_;
-    const auto four = [&](auto n) {
-      if (samples_ == 1) {
-        T values[4];
-        for (std::size_t i = 0; i < n; ++i) values[i] = value(from[i], at + i);
+    samples_ == 1 ? row_of<T, 1>(tile, out.data(), value) : row_of<T, 0>(tile, out.data(), value);
+  }
+  // kSamples: of a pixel, 0 if that is not known before.
+  template <typename T, std::size_t kSamples, typename Value>
+  void row_of(const T* tile, T* out, const Value& value) const {
+    const std::size_t samples = kSamples != 0 ? kSamples : samples_, columns = columns_, begin = at_;
+    const T* const from = tile + offset_;
+    const auto four = [=](std::size_t cell, auto n) {
+      T values[4] = {};
+      const std::size_t at = begin + 4 * cell * samples;
+      std::memcpy(values, from + (cell >> 2) * kAreaSamples + (cell & 3) * kCellSamples, n * sizeof(T));
+      for (std::size_t i = 0; i < n; ++i) values[i] = value(values[i], at + i * samples);
+      if (kSamples == 1) {
         std::memcpy(&out[at], values, n * sizeof(T));
       } else {
-        for (std::size_t i = 0; i < n; ++i) out[at + i * samples_] = value(from[i], at + i * samples_);
+        for (std::size_t i = 0; i < n; ++i) out[at + i * samples] = values[i];
       }
     };
-    std::size_t left = columns_;
-    for (std::size_t cell = 0; left >= 4; left -= 4, ++cell) {
-      from = tile + offset_ + (cell >> 2) * kAreaSamples + (cell & 3) * kCellSamples;
-      four(std::integral_constant<std::size_t, 4>());
-      at += 4 * samples_;
-    }
-    if (left == 0) return;
-    const std::size_t cell = columns_ / 4;
-    from = tile + offset_ + (cell >> 2) * kAreaSamples + (cell & 3) * kCellSamples;
-    four(left);
+    for (std::size_t cell = 0; cell < columns / 4; ++cell) four(cell, std::integral_constant<std::size_t, 4>());
+    if (columns % 4 != 0) four(columns / 4, columns % 4);
   }
 
   void count() const {
@@ -121,9 +127,8 @@ class Store {
   const FrameJob& frame_;
   const Target& target_;
   const TileRow& tiles_;
-  const std::size_t samples_;  // of a pixel
-  int x_ = 0;                  // of the tile at hand
-  std::size_t columns_ = 0;
+  const std::size_t samples_;        // of a pixel
+  std::size_t columns_ = 0;          // of the tile at hand
   std::size_t at_ = 0, offset_ = 0;  // where the row at hand begins: in the buffers, in the tiles
   std::size_t draw_ = 0;             // that was seen last
 };

@@ -12,7 +12,6 @@
 #include <thread>
 
 #include "certify/commands/certify_command.hpp"
-#include "certify/rivals/names.hpp"
 #include "certify/rivals/rival_checks.hpp"
 #include "certify/run/progress.hpp"
 #include "mutation/zoo/names.hpp"
@@ -121,48 +120,6 @@ bool zoo_rivals(const ZooRivalOptions& options, const std::function<void(const s
   print(fmt::format("{} of {} specimens not certified, {} of {} right rasterizers certified{}\n", rejected, specimens,
                     certified, right, interrupted() ? ": interrupted" : ""));
   return rejected + certified == all.size();
-}
-
-bool zoo_names(const ZooRivalOptions& options, const std::function<void(const std::string&)>& print) {
-  std::vector<Animal> all = animals(options.only);
-  std::erase_if(all, [](const Animal& animal) { return animal.right; });
-  std::size_t named = 0, done = 0;
-  for (const Animal& animal : all) {
-    if (interrupted()) break;
-    certify::RivalChoice choice;
-    choice.plugin = options.plugin;
-    choice.arguments = animal.name;
-    choice.time_limit = 120;
-    const std::unique_ptr<adapters::Rival> rival = certify::start_rival(choice);
-    certify::RivalSubject subject;
-    subject.rival = rival.get();
-    subject.declared = subject.strict = true;
-    subject.terms = adapters::terms_of(rival->info(), {});
-    // The scenes of the property that names the fault, as a run finds them.
-    std::vector<corpus::Scene> found;
-    for (const zoo::Specimen& specimen : zoo::specimens()) {
-      if (animal.name != specimen.name) continue;
-      for (const properties::Property& property : properties::all_properties()) {
-        if (std::string_view(property.name) != specimen.named_by) continue;
-        for (std::uint64_t n = 0; n < 300 && found.size() < 4; ++n) {
-          const corpus::Scene scene = properties::sampled_case(property, n);
-          if (certify::judge_scene(scene, subject).differences > 0) found.push_back(scene);
-        }
-      }
-    }
-    const std::vector<judge::Name> names = certify::name_rival(subject, found);
-    // Faults that explain it as well are one with it as far as anybody can tell.
-    bool good = false;
-    for (const judge::Name& name : names) {
-      good = good || (name.fault->name == animal.name && name.agreement == names.front().agreement);
-    }
-    ++done;
-    if (good) ++named;
-    print(fmt::format("{}{:32} {}\n", good ? "" : "OTHERWISE ", animal.name,
-                      names.empty() ? "no name" : certify::name_text(names.front())));
-  }
-  print(fmt::format("{} of {} specimens are called what they are\n", named, done));
-  return 10 * named >= 9 * done;
 }
 
 }  // namespace surefill::mutation

@@ -23,9 +23,6 @@ struct ZooRivalOptions {
 // finding and no right rasterizer has one.
 bool zoo_rivals(const ZooRivalOptions& options, const std::function<void(const std::string&)>& print);
 
-// Names each specimen by the others and itself; prints a line for each. True if nine in ten are called what they are.
-bool zoo_names(const ZooRivalOptions& options, const std::function<void(const std::string&)>& print);
-
 }  // namespace surefill::mutation
 
 #endif  // SUREFILL_MUTATION_MATRIX_RIVALS_HPP

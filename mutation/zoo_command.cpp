@@ -15,6 +15,7 @@
 #include "certify/rivals/host.hpp"
 #include "certify/run/files.hpp"
 #include "certify/run/progress.hpp"
+#include "mutation/called.hpp"
 #include "mutation/matrix.hpp"
 #include "mutation/matrix_rivals.hpp"
 
@@ -37,8 +38,11 @@ int run(Arguments& arguments) {
     arguments.rivals.settings.level = certify::level_named(arguments.level);
     arguments.rivals.settings.corpus = SUREFILL_CORPUS;
     arguments.rivals.jobs = arguments.options.jobs;
-    const bool told =
-        arguments.names ? zoo_names(arguments.rivals, certify::print) : zoo_rivals(arguments.rivals, certify::print);
+    const bool told = zoo_rivals(arguments.rivals, certify::print);
+    return certify::interrupted() ? certify::kInterrupted : told ? certify::kGood : certify::kBad;
+  }
+  if (arguments.names) {
+    const bool told = zoo_names(certify::print);
     return certify::interrupted() ? certify::kInterrupted : told ? certify::kGood : certify::kBad;
   }
   const KillMatrix matrix = kill_matrix(arguments.options);
@@ -68,7 +72,7 @@ int parse_and_run(int argc, char** argv) {
   CLI::Option* plugin = app.add_option("--plugin", arguments.rivals.plugin,
                                        "libsurefill_zoo.so: certify each as a rival behind the adapter instead");
   certify::add_names(app, "--only", arguments.rivals.only, "Names with * and ?, separated by commas")->needs(plugin);
-  app.add_flag("--names", arguments.names, "With --plugin: say what each specimen's fault is called");
+  app.add_flag("--names", arguments.names, "Say what each specimen's fault is called, and thirty further ones");
   app.add_option("--level", arguments.level, "Of certify: quick, standard or thorough (quick)")
       ->check(CLI::IsMember({"quick", "standard", "thorough"}))
       ->needs(plugin);

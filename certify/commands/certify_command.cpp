@@ -136,21 +136,15 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
   facts.problems = subject.inference.problems;
 }
 
-// What the faults that were found are called: the best name, and those that explain them as well.
+// What the faults that were found are called.
 std::vector<std::string> names_of(const RivalSubject& subject, std::span<const CheckResult> results) {
   std::vector<corpus::Scene> scenes;
   for (const CheckResult& result : results) {
     if (result.failed > 0 && !result.scene_text.empty()) scenes.push_back(corpus::read_scene(result.scene_text));
   }
   const bool failed = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.failed > 0; });
-  std::vector<std::string> texts;
-  if (!failed || subject.rival->given_up()) return texts;
-  const std::vector<judge::Name> names = name_rival(subject, scenes);
-  for (const judge::Name& name : names) {
-    if (name.agreement < names.front().agreement || texts.size() == 3) break;
-    texts.push_back(name_text(name));
-  }
-  return texts;
+  if (!failed || subject.rival->given_up()) return {};
+  return explain_rival(subject, scenes);
 }
 
 // A rival that draws nothing is a finding by itself, and the only one.

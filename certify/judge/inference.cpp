@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <tuple>
 
 #include "certify/judge/axes.hpp"
 #include "certify/judge/facts.hpp"
@@ -85,26 +84,42 @@ std::vector<Choice> choices_of(const AxisFit& fit, double low, double high, cons
   return choices;
 }
 
-// What a triangle may be drawn with, to tell readings apart: one axis anywhere, in the middle of steps; the other one
-// where all its readings are alike.
-FlatTriangle telling_triangle(Random& random, int axis, const AxisModel& one, const AxisModel& other, double step,
-                              int number) {
-  constexpr int kLength = 8;
-  FlatTriangle triangle{};
-  const auto middle = [step](const AxisModel& model, double low, double high, Random& r) {
-    const double at = low + (high - low) * r.unit();
-    if (model.bits < 0) return on_step(at, step);
-    const double source =
-        placed(at, model, kLength) - model.moved + std::ldexp(r.below(2) == 0 ? 0.25 : -0.25, -model.bits);
-    return on_step(source * kLength / (kLength - model.lacks), step);
-  };
-  for (Point& p : triangle) {
-    // Close to 0, where what goes by the sign changes; or anywhere.
-    p.x = number % 2 == 0 ? middle(one, -1.5, 1.5, random) : middle(one, -8, 12, random);
-    p.y = middle(other, 1.25, 8, random);
+constexpr int kTellingSize = 8;
+
+// A source position in the middle of what goes to about this place.
+float middle_of(const AxisModel& axis, double at, double step, bool upper) {
+  if (axis.bits < 0) return on_step(at, step);
+  const double source = placed(at, axis, kTellingSize) - axis.moved + std::ldexp(upper ? 0.25 : -0.25, -axis.bits);
+  return on_step(source * kTellingSize / (kTellingSize - axis.lacks), step);
+}
+
+// Where the two readings send a position to different places, as seen from the sample: near 0, or left of it.
+std::optional<float> disputed(Random& random, const AxisModel& a, const AxisModel& b, double step) {
+  for (int n = 0; n < 400; ++n) {
+    const double at = n < 300 ? -1.5 + 3 * random.unit() : -8 + 8 * random.unit();
+    const float source = middle_of(a, at, step, random.below(2) == 0);
+    const double from_a = placed(source, a, kTellingSize) - a.place, from_b = placed(source, b, kTellingSize) - b.place;
+    if (std::abs(from_a - from_b) > std::ldexp(0.5, -std::max(a.bits, 0))) return source;
   }
-  if (number % 4 < 3) triangle[2].x = middle(one, 1.5, 8, random);
-  return axis == 0 ? triangle : transposed(triangle);
+  return std::nullopt;
+}
+
+// A triangle with an edge from there, between the two places, close past a sample; the other axis is kept above 1, where
+// all its readings are alike.
+FlatTriangle telling_triangle(Random& random, float source, const AxisModel& a, const AxisModel& b,
+                              const AxisModel& other, double step) {
+  const double from =
+      (placed(source, a, kTellingSize) - a.place + placed(source, b, kTellingSize) - b.place) / 2 + a.place;
+  FlatTriangle triangle{};
+  triangle[0] = {source, middle_of(other, 1.25 + 6.5 * random.unit(), step, true)};
+  const double y = placed(triangle[0].y, other, kTellingSize);
+  const double sx = random.between(0, 5) + a.place, sy = random.between(2, 6) + other.place;
+  const double further = 1.2 + 3 * random.unit();
+  triangle[1] = {middle_of(a, from + (sx - from) * further, step, true),
+                 middle_of(other, y + (sy - y) * further, step, true)};
+  triangle[2] = {middle_of(a, 2 + 10 * random.unit(), step, true),
+                 middle_of(other, 1.25 + 10 * random.unit(), step, true)};
+  return triangle;
 }
 
 class Chooser {
@@ -113,42 +128,69 @@ class Chooser {
       : rival_(rival), expected_(expected), probes_(probes) {}
 
   // The first of the choices of this axis that no probe refutes: it meets every other one in a triangle that tells them
-  // apart, where there is one. `both` is the model so far.
+  // apart. Where there should be one and none is found, positions are known to a step. `both` is the model so far.
   Choice choose(std::vector<Choice> choices, int axis, const Model& both, bool offscreen) {
-    constexpr int kTries = 200;
-    const auto with = [&](const Choice& choice) {
-      Model model = both;
-      (axis == 0 ? model.x : model.y) = choice.axis;
-      return model;
-    };
+    const AxisModel& other = axis == 0 ? both.y : both.x;
+    const double step = rival_.position_step();
     std::size_t best = 0;
     std::vector<std::uint64_t> wrong(choices.size(), 0);
-    for (std::size_t c = 1; c < choices.size() && offscreen; ++c) {
-      for (int n = 0; n < kTries && wrong[c] <= wrong[best]; ++n) {
-        const AxisModel& other = axis == 0 ? both.y : both.x;
-        const FlatTriangle triangle =
-            telling_triangle(random_, axis, choices[n / 4 % 2 == 0 ? best : c].axis, other, rival_.position_step(), n);
-        const corpus::Scene scene = flat_scene(8, 8, {seen(triangle, both.culled)});
-        if (!apart(with(choices[best]), with(choices[c]), scene)) continue;
-        try {
-          probes_.push_back({scene, rival_.draw(scene, covering(rival_))});
-        } catch (const Declined&) {
-          continue;
-        }
-        for (std::size_t k = 0; k < choices.size(); ++k)
-          wrong[k] += wrong_samples(expected_, with(choices[k]), probes_.back());
-        const std::size_t now = static_cast<std::size_t>(std::min_element(wrong.begin(), wrong.end()) - wrong.begin());
-        if (wrong[now] < wrong[best]) best = now, c = 0;
+    bool unsure = false;
+    for (std::size_t c = 0; c < choices.size() && offscreen; ++c) {
+      if (c == best || wrong[c] > wrong[best]) continue;
+      const std::optional<float> source = disputed(random_, choices[best].axis, choices[c].axis, step);
+      if (!source) continue;
+      const std::optional<corpus::Scene> scene = telling_scene(choices[best].axis, choices[c].axis, axis, both, other);
+      if (!scene) {
+        unsure = true;
+        continue;
+      }
+      try {
+        probes_.push_back({*scene, rival_.draw(*scene, covering(rival_))});
+      } catch (const Declined&) {
         break;
       }
+      for (std::size_t k = 0; k < choices.size(); ++k) {
+        wrong[k] += wrong_samples(expected_, with(both, axis, choices[k].axis), probes_.back());
+      }
+      const auto now = static_cast<std::size_t>(std::min_element(wrong.begin(), wrong.end()) - wrong.begin());
+      if (wrong[now] >= wrong[best]) continue;
+      best = now;
+      unsure = false;
+      c = static_cast<std::size_t>(-1);
+    }
+    if (unsure) {
+      AxisModel& chosen = choices[best].axis;
+      chosen.blur = std::max(chosen.blur, std::ldexp(1.0, -chosen.bits));
     }
     return choices[best];
   }
 
  private:
+  static Model with(Model model, int axis, const AxisModel& one) {
+    (axis == 0 ? model.x : model.y) = one;
+    return model;
+  }
+
+  std::optional<corpus::Scene> telling_scene(const AxisModel& a, const AxisModel& b, int axis, const Model& both,
+                                             const AxisModel& other) {
+    constexpr int kTries = 300;
+    for (int n = 0; n < kTries; ++n) {
+      const std::optional<float> source = disputed(random_, a, b, rival_.position_step());
+      if (!source) continue;
+      const FlatTriangle triangle = telling_triangle(random_, *source, a, b, other, rival_.position_step());
+      if (std::any_of(triangle.begin(), triangle.end(), [](const Point& p) { return p.y < 1.125f; })) continue;
+      corpus::Scene scene =
+          flat_scene(kTellingSize, kTellingSize, {seen(axis == 0 ? triangle : transposed(triangle), both.culled)});
+      if (apart(with(both, axis, a), with(both, axis, b), scene)) return scene;
+    }
+    return std::nullopt;
+  }
+
   bool apart(const Model& a, const Model& b, const corpus::Scene& scene) const {
-    const std::vector<Cover> x = expected_.cover(a, 8, 8, 1, triangle_of(scene)),
-                             y = expected_.cover(b, 8, 8, 1, triangle_of(scene));
+    const auto cover = [&](const Model& model) {
+      return expected_.cover(model, kTellingSize, kTellingSize, 1, triangle_of(scene));
+    };
+    const std::vector<Cover> x = cover(a), y = cover(b);
     for (std::size_t s = 0; s < x.size(); ++s) {
       if (x[s] != y[s] && x[s] != Cover::open && y[s] != Cover::open) return true;
     }

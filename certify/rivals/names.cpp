@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "certify/judge/symptoms.hpp"
 #include "certify/rivals/rival_checks.hpp"
 #include "mutation/zoo/zoo.hpp"
 #include "oracle/oracle.hpp"
@@ -55,11 +56,38 @@ std::vector<judge::Wrong> wrong_scenes(const RivalSubject& subject, std::span<co
   return wrong;
 }
 
-std::vector<judge::Name> name_rival(const RivalSubject& subject, std::span<const Scene> found) {
+std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::span<const judge::Wrong> wrong,
+                                      const std::function<bool(const Scene&)>& still_wrong) {
+  constexpr double kSure = 0.9;
+  constexpr std::size_t kMost = 3;
+  std::vector<std::string> sentences;
+  // The best name, and those that explain as much.
+  const auto add_names = [&] {
+    for (const judge::Name& name : names) {
+      if (name.agreement < names.front().agreement || sentences.size() == kMost) break;
+      sentences.push_back(name_text(name));
+    }
+  };
+  const bool sure = !names.empty() && names.front().agreement >= kSure;
+  if (sure) add_names();
+  for (const std::string& sentence : judge::symptoms(wrong, still_wrong)) {
+    if (sentences.size() < kMost) sentences.push_back(sentence);
+  }
+  if (!sure) add_names();
+  return sentences;
+}
+
+std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const Scene> found) {
   if (subject.rival->info().model.kind == SUREFILL_ADAPTER_MODEL_UNKNOWN) return {};
   const std::vector<judge::Wrong> wrong = wrong_scenes(subject, found, kScenes);
   if (wrong.empty()) return {};
-  return judge::name_fault(known_faults(), wrong, !subject.strict);
+  return sentences_of(judge::name_fault(known_faults(), wrong, !subject.strict), wrong, [&subject](const Scene& scene) {
+    try {
+      return !subject.rival->given_up() && judge_scene(scene, subject).differences > 0;
+    } catch (const std::exception&) {
+      return false;
+    }
+  });
 }
 
 std::string name_text(const judge::Name& name) {

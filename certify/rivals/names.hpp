@@ -4,6 +4,7 @@
 #ifndef SUREFILL_CERTIFY_RIVAL_NAMES_HPP
 #define SUREFILL_CERTIFY_RIVAL_NAMES_HPP
 
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -20,8 +21,13 @@ std::span<const judge::Fault> known_faults();
 std::vector<judge::Wrong> wrong_scenes(const RivalSubject& subject, std::span<const corpus::Scene> found,
                                        std::size_t most);
 
-// The names of what is wrong with it, the best one first.
-std::vector<judge::Name> name_rival(const RivalSubject& subject, std::span<const corpus::Scene> found);
+// What is wrong with it in sentences, the most telling first, at most three: a known fault that draws nine tenths of it,
+// what all of it has in common, a known fault that draws most of it. `still_wrong` as of judge::symptoms.
+std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::span<const judge::Wrong> wrong,
+                                      const std::function<bool(const corpus::Scene&)>& still_wrong);
+
+// The same of a rival.
+std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const corpus::Scene> found);
 
 // "samples on edges belong to both sides (agrees on 97 % of what is wrong; edges-inclusive, seen in ...)".
 std::string name_text(const judge::Name& name);

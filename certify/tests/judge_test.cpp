@@ -60,7 +60,8 @@ class Right : public Rival {
 };
 
 // Random scenes held to what was found, and how many samples were judged.
-std::uint64_t judged_samples(Right& rival, const Inference& found, const std::string& name) {
+std::uint64_t judged_samples(Right& rival, const Inference& found, const std::string& name,
+                             std::uint64_t scenes = 400) {
   Terms terms;
   terms.model = found.model;
   terms.known = found.known;
@@ -68,7 +69,7 @@ std::uint64_t judged_samples(Right& rival, const Inference& found, const std::st
   properties::SceneLimits limits;
   limits.state = limits.attributes = false;
   const auto categories = properties::categories();
-  for (std::uint64_t n = 0; n < 400; ++n) {
+  for (std::uint64_t n = 0; n < scenes; ++n) {
     corpus::Scene scene = properties::random_scene(categories[n % categories.size()], n, limits);
     for (corpus::SceneDraw& draw : scene.draws) {
       draw.viewport.reset();
@@ -137,6 +138,23 @@ TEST(Judge, RightBehaviourIsFoundAndNotAccused) {
     EXPECT_TRUE(found.problems.empty()) << one.name << ": " << found.problems.front();
     EXPECT_NE(words.find(one.says), std::string::npos) << one.name << ": " << words;
     EXPECT_GT(judged_samples(rival, found, one.name), one.onscreen_only ? 1000u : 5000u) << one.name;
+  }
+}
+
+// All of the pairwise array, and mixtures that are not in it. `./dev test all` certifies the former at quick level.
+TEST(Judge, RightRasterizersAreNotAccused) {
+  std::vector<Choices> all = zoo::right_rasterizers();
+  Random random(0x2164);
+  for (int n = 0; n < 36; ++n) {
+    Choices& choices = all.emplace_back();
+    for (std::size_t k = 0; k < zoo::kNumberOfChoices; ++k) choices[k] = random.below(zoo::kChoices[k]);
+  }
+  for (const Choices& choices : all) {
+    Right rival(choices);
+    const Inference found = infer(rival, adapters::oracle_expected(), std::nullopt);
+    EXPECT_TRUE(found.problems.empty()) << zoo::right_text(choices) << ": " << found.problems.front();
+    EXPECT_TRUE(found.known) << zoo::right_text(choices);
+    EXPECT_GT(judged_samples(rival, found, zoo::right_text(choices), 200), 2000u) << zoo::right_text(choices);
   }
 }
 

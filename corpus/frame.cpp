@@ -90,24 +90,33 @@ Frame::Frame(const Scene& scene, const Outputs& outputs) : initial_depth_(scene.
   target_.samples = image_.samples = scene.samples;
   target_.depth_test = scene.depth_test;
   target_.attribute_location = scene.attribute_location;
+  target_.origin = scene.origin;
+  sample_locations_ = scene.sample_locations;
+  target_.sample_locations = sample_locations_;
+  target_.layers = image_.layers = scene.layers;
 
   // A size outside S5 has no samples here; render and validate then name it.
   const std::size_t total = sample_total(target_);
   if (initial_depth_.size() == 1) initial_depth_.assign(total, scene.initial_depth[0]);
   target_.initial_depth = initial_depth_;
 
-  // A conservative draw leaves the counts as the frame's only output (M4).
-  const bool conservative = std::any_of(scene.draws.begin(), scene.draws.end(),
-                                        [](const SceneDraw& draw) { return draw.conservative != Conservative::none; });
+  const bool conservative = is_conservative(scene);
+  const std::size_t in_layers = total * static_cast<std::size_t>(std::clamp(scene.layers, 1, kMaxLayers));
   for_each_output([&](const auto& output) {
-    if (!(outputs.*output.asked) || (conservative && !output.when_conservative)) return;
-    (image_.*output.image).resize(output.elements * total);
+    if (!(outputs.*output.asked) || !output.has(scene, conservative)) return;
+    (image_.*output.image).resize(output.elements * (output.layered ? in_layers : total));
     target_.*output.target = image_.*output.image;
   });
+  if (outputs.numbers && scene.more.numbers) {
+    for (Draw& draw : draws_) {
+      draw.covered = image_.covered.emplace_back(draw.indices.size() / 3);
+      if (!conservative) draw.visible = image_.visible.emplace_back(draw.indices.size() / 3);
+    }
+  }
   if (!outputs.attributes || conservative) return;
   image_.attributes.reserve(scene.attributes.size());
   for (const SceneAttribute& attribute : scene.attributes) {
-    std::vector<float>& values = image_.attributes.emplace_back(attribute.components * total);
+    std::vector<float>& values = image_.attributes.emplace_back(attribute.components * in_layers);
     attribute_targets_.push_back({values, attribute.components});
   }
   target_.attributes = attribute_targets_;

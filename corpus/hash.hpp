@@ -24,6 +24,12 @@ class Hash {
   void add(const std::vector<std::uint32_t>& words) {
     for (const std::uint32_t word : words) add(word);
   }
+  void add(const std::vector<std::int32_t>& words) {
+    for (const std::int32_t word : words) add(static_cast<std::uint32_t>(word));
+  }
+  void add(const std::vector<std::uint64_t>& numbers) {
+    for (const std::uint64_t n : numbers) add(static_cast<std::uint32_t>(n)), add(static_cast<std::uint32_t>(n >> 32));
+  }
   void add(const std::vector<float>& values) {
     for (const float value : values) add(std::bit_cast<std::uint32_t>(value));
   }
@@ -47,6 +53,8 @@ inline std::string hash_of(const Scene& scene, const Options& options, Statistic
   Hash hash;
   for_each_output([&](const auto& output) { hash.add(image.*output.image); });
   for (const auto& attribute : image.attributes) hash.add(attribute);
+  for (const auto& covered : image.covered) hash.add(covered);
+  for (const auto& visible : image.visible) hash.add(visible);
   return hash.text();
 }
 

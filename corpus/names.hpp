@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "corpus/scene.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::corpus {
@@ -29,7 +30,10 @@ inline constexpr Names<FillRule, 10> kFillRuleNames{{{FillRule::top_left, "top-l
 inline constexpr Names<FrontFace, 2> kFrontFaceNames{
     {{FrontFace::clockwise, "clockwise"}, {FrontFace::counter_clockwise, "counter-clockwise"}}};
 inline constexpr Names<Cull, 3> kCullNames{{{Cull::none, "none"}, {Cull::front, "front"}, {Cull::back, "back"}}};
-inline constexpr Names<DepthTest, 2> kDepthTestNames{{{DepthTest::less, "less"}, {DepthTest::greater, "greater"}}};
+inline constexpr Names<DepthTest, 4> kDepthTestNames{{{DepthTest::less, "less"},
+                                                      {DepthTest::greater, "greater"},
+                                                      {DepthTest::less_equal, "less-equal"},
+                                                      {DepthTest::greater_equal, "greater-equal"}}};
 inline constexpr Names<DepthMode, 3> kDepthModeNames{
     {{DepthMode::none, "none"}, {DepthMode::clip, "clip"}, {DepthMode::clamp, "clamp"}}};
 inline constexpr Names<Interpolation, 3> kInterpolationNames{{{Interpolation::perspective, "perspective"},
@@ -37,8 +41,11 @@ inline constexpr Names<Interpolation, 3> kInterpolationNames{{{Interpolation::pe
                                                               {Interpolation::flat, "flat"}}};
 inline constexpr Names<AttributeLocation, 2> kAttributeLocationNames{
     {{AttributeLocation::centre, "centre"}, {AttributeLocation::centroid, "centroid"}}};
-inline constexpr Names<Conservative, 3> kConservativeNames{
-    {{Conservative::none, "none"}, {Conservative::over, "over"}, {Conservative::inner, "inner"}}};
+inline constexpr Names<Conservative, 5> kConservativeNames{{{Conservative::none, "none"},
+                                                            {Conservative::over, "over"},
+                                                            {Conservative::inner, "inner"},
+                                                            {Conservative::overlap, "overlap"},
+                                                            {Conservative::touched, "touched"}}};
 inline constexpr Names<GridRounding, 3> kGridRoundingNames{{{GridRounding::nearest_even, "nearest-even"},
                                                             {GridRounding::nearest_up, "nearest-up"},
                                                             {GridRounding::truncate, "truncate"}}};
@@ -46,6 +53,12 @@ inline constexpr Names<ClipDepth, 2> kClipDepthNames{
     {{ClipDepth::zero_to_one, "zero-to-one"}, {ClipDepth::minus_one_to_one, "minus-one-to-one"}}};
 inline constexpr Names<ClipY, 2> kClipYNames{{{ClipY::up, "y-up"}, {ClipY::down, "y-down"}}};
 inline constexpr Names<bool, 2> kSwitchNames{{{true, "on"}, {false, "off"}}};
+
+// The words of what a scene asks for beyond the usual outputs.
+inline constexpr std::array<std::pair<std::string_view, bool MoreOutputs::*>, 3> kMoreOutputs{
+    {{"winding", &MoreOutputs::winding},
+     {"numbers", &MoreOutputs::numbers},
+     {"conservative-index", &MoreOutputs::conservative_index}}};
 
 // The table of an enumeration, found by its type.
 template <typename Enum>

@@ -61,11 +61,16 @@ bool same_elements(const Range& a, const Range& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const auto& x, const auto& y) { return same(x, y); });
 }
 
-// The state with the culling box by its bits.
+bool same(const std::optional<DepthBias>& a, const std::optional<DepthBias>& b) {
+  return a.has_value() == b.has_value() && (!a || (same(a->constant, b->constant) && same(a->slope, b->slope)));
+}
+
+// The state with its floats by their bits.
 bool same(const DrawState& a, const DrawState& b) {
   DrawState x = a, y = b;
   x.culling_box.reset(), y.culling_box.reset();
-  return x == y && a.culling_box.has_value() == b.culling_box.has_value() &&
+  x.depth_bias.reset(), y.depth_bias.reset();
+  return x == y && same(a.depth_bias, b.depth_bias) && a.culling_box.has_value() == b.culling_box.has_value() &&
          (!a.culling_box || same_elements(*a.culling_box, *b.culling_box));
 }
 
@@ -104,7 +109,8 @@ int write_new_file(const fs::path& path, const std::string& text) {
 
 bool equal(const Scene& a, const Scene& b) {
   return a.comment == b.comment && a.width == b.width && a.height == b.height && a.samples == b.samples &&
-         a.depth_test == b.depth_test && a.attribute_location == b.attribute_location &&
+         a.depth_test == b.depth_test && a.attribute_location == b.attribute_location && a.origin == b.origin &&
+         a.sample_locations == b.sample_locations && a.layers == b.layers && a.more == b.more &&
          same(a.initial_depth, b.initial_depth) && same_elements(a.attributes, b.attributes) &&
          std::equal(a.draws.begin(), a.draws.end(), b.draws.begin(), b.draws.end(),
                     [](const SceneDraw& x, const SceneDraw& y) { return same(x, y); });

@@ -59,12 +59,24 @@ struct SceneDraw : DrawState {
   std::optional<std::uint32_t> first_index;  // unset: the number of triangles in the draws before this one
 };
 
+// What a scene asks for beyond what every scene does.
+struct MoreOutputs {
+  bool winding = false;  // M9
+  bool numbers = false;  // covered and visible samples of each triangle; no visible where a draw is conservative (M10)
+  bool conservative_index = false;  // the index where a draw is conservative (M4c)
+  bool operator==(const MoreOutputs&) const = default;
+};
+
 struct Scene {
   std::string comment;  // the comment lines at the head of the file, without "# ", joined by '\n': title, origin, cause
   int width = 1, height = 1;
   int samples = 1;
   DepthTest depth_test = DepthTest::less;
   AttributeLocation attribute_location = AttributeLocation::centre;
+  Origin origin;
+  std::vector<SampleLocation> sample_locations;  // empty: the standard ones; else one for each sample
+  int layers = 1;
+  MoreOutputs more;
   std::vector<float> initial_depth;  // empty, one value for all samples, or one a sample
   std::vector<SceneAttribute> attributes;
   std::vector<SceneDraw> draws;
@@ -102,10 +114,13 @@ std::vector<std::string> list_corpus(const std::string& directory);
 // An image with its buffers; which of them are asked for is chosen at construction.
 struct Outputs {
   bool count = true, index = true, depth = true, barycentrics = true, attributes = true;
+  bool winding = true, numbers = true;  // of a scene that asks for them
 };
 struct Image {
-  int width = 0, height = 0, samples = 1;
+  int width = 0, height = 0, samples = 1, layers = 1;
   std::vector<std::uint32_t> count, index;
+  std::vector<std::int32_t> winding;
+  std::vector<std::vector<std::uint64_t>> covered, visible;  // of each draw
   std::vector<float> depth, barycentrics;
   std::vector<std::vector<float>> attributes;
 };
@@ -129,6 +144,7 @@ class Frame {
   std::vector<Draw> draws_;
   std::vector<AttributeTarget> attribute_targets_;
   std::vector<float> initial_depth_;
+  std::vector<SampleLocation> sample_locations_;
   Target target_;
   Image image_;
 

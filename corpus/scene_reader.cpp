@@ -64,7 +64,7 @@ class Reader {
     bool repeatable;
     void (Reader::*read)();
   };
-  static const std::array<Keyword, 6> kFrameKeywords;
+  static const std::array<Keyword, 10> kFrameKeywords;
   static const std::array<Keyword, 6> kDrawKeywords;
 
   [[noreturn]] void fail_at(std::size_t line, const std::string& cause) const {
@@ -256,6 +256,30 @@ class Reader {
     }
   }
 
+  void read_origin() {
+    scene_.origin = {integer(fields_[1], -kMaxOrigin, kMaxOrigin), integer(fields_[2], -kMaxOrigin, kMaxOrigin)};
+  }
+
+  void read_sample_locations() {
+    locations_line_ = line_;
+    if (fields_.size() % 2 == 0) fail("sample-locations X Y...: an X without a Y");
+    for (std::size_t i = 1; i < fields_.size(); i += 2) {
+      scene_.sample_locations.push_back({integer(fields_[i], 0, 15), integer(fields_[i + 1], 0, 15)});
+    }
+  }
+
+  void read_layers() { scene_.layers = integer(fields_[1], 1, kMaxLayers); }
+
+  void read_outputs() {
+    for (std::size_t i = 1; i < fields_.size(); ++i) {
+      const auto row = std::find_if(kMoreOutputs.begin(), kMoreOutputs.end(),
+                                    [&](const auto& output) { return output.first == fields_[i]; });
+      if (row == kMoreOutputs.end()) fail(quoted(fields_[i]) + " is none of: winding, numbers, conservative-index");
+      if (scene_.more.*row->second) fail(quoted(fields_[i]) + " is given twice");
+      scene_.more.*row->second = true;
+    }
+  }
+
   void read_initial_depth() {
     initial_depth_line_ = line_;
     for (std::size_t i = 1; i < fields_.size(); ++i) scene_.initial_depth.push_back(real(fields_[i]));
@@ -284,6 +308,11 @@ class Reader {
     if (!has_target_) fail("no target before the first draw");
     const auto total = static_cast<std::uint64_t>(scene_.width) * static_cast<std::uint64_t>(scene_.height) *
                        static_cast<std::uint64_t>(scene_.samples);
+    const std::size_t places = scene_.sample_locations.size();
+    if (places != 0 && places != static_cast<std::size_t>(scene_.samples)) {
+      fail_at(locations_line_, "sample-locations: " + std::to_string(places) + " places for " +
+                                   std::to_string(scene_.samples) + " samples (S7)");
+    }
     const std::size_t values = scene_.initial_depth.size();
     if (values > 1 && values != total) {
       fail_at(initial_depth_line_, "initial-depth: " + std::to_string(values) + " values for a target of " +
@@ -320,7 +349,11 @@ class Reader {
       if (draw().depth_mode != DepthMode::none)
         fail_at(conservative_line_, "a conservative draw needs depth-mode none (M4)");
       if (draw().grid) fail_at(conservative_line_, "a conservative draw has no grid (M4)");
+      if (scene_.layers > 1) fail_at(conservative_line_, "a frame with a conservative draw has one layer (V4)");
+      if (!scene_.sample_locations.empty())
+        fail_at(conservative_line_, "a frame with a conservative draw has no sample locations (S7)");
     }
+    if (scene_.layers > 1 && !draw().depth_write) fail("a frame with layers has no draw with depth-write off (V4)");
     const std::uint64_t start = draw().first_index ? std::uint64_t{*draw().first_index} : triangles_;
     if (start + draw().triangles.size() > kNoTriangle) {
       fail("first-index " + std::to_string(start) + " plus " + std::to_string(draw().triangles.size()) +
@@ -377,7 +410,7 @@ class Reader {
       if constexpr (std::is_enum_v<Part>) {
         part = word(text, names_of<Part>());
       } else if constexpr (std::is_same_v<Part, float>) {
-        part = real(text);
+        part = sizeof...(range) == 0 ? real(text) : finite(text);
       } else {
         (..., (part = integer(text, range.least, range.most)));
       }
@@ -425,15 +458,19 @@ class Reader {
   Seen frame_seen_;
   std::size_t components_ = 0;   // of all attributes
   std::uint64_t triangles_ = 0;  // in the draws before this one
-  std::size_t initial_depth_line_ = 0, conservative_line_ = 0;
+  std::size_t initial_depth_line_ = 0, conservative_line_ = 0, locations_line_ = 0;
   Scene scene_;
 };
 
-const std::array<Reader::Keyword, 6> Reader::kFrameKeywords{{
+const std::array<Reader::Keyword, 10> Reader::kFrameKeywords{{
     {"target", "WIDTH HEIGHT", 2, 2, false, &Reader::read_target},
     {"samples", "N", 1, 1, false, &Reader::read_samples},
-    {"depth-test", "less|greater", 1, 1, false, &Reader::read_depth_test},
+    {"depth-test", "less|greater|less-equal|greater-equal", 1, 1, false, &Reader::read_depth_test},
     {"attribute-location", "centre|centroid", 1, 1, false, &Reader::read_attribute_location},
+    {"origin", "X Y", 2, 2, false, &Reader::read_origin},
+    {"sample-locations", "X Y...", 2, 32, false, &Reader::read_sample_locations},
+    {"layers", "N", 1, 1, false, &Reader::read_layers},
+    {"outputs", "[winding] [numbers] [conservative-index]", 1, 3, false, &Reader::read_outputs},
     {"initial-depth", "Z...", 1, kAnyCount, true, &Reader::read_initial_depth},
     {"attribute", "NAME COMPONENTS INTERPOLATION", 3, 3, true, &Reader::read_attribute},
 }};

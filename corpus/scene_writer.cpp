@@ -22,6 +22,19 @@ class Writer {
     if (scene.attribute_location != AttributeLocation::centre) {
       line("attribute-location", name(scene.attribute_location, kAttributeLocationNames));
     }
+    if (scene.origin != Origin{}) line("origin", scene.origin.x, scene.origin.y);
+    if (!scene.sample_locations.empty()) {
+      begin("sample-locations");
+      for (const SampleLocation& location : scene.sample_locations) append_all(location.x, location.y);
+      text_ += '\n';
+    }
+    if (scene.layers != 1) line("layers", scene.layers);
+    if (scene.more != MoreOutputs{}) {
+      begin("outputs");
+      for (const auto& [word, member] : kMoreOutputs)
+        if (scene.more.*member) append(word);
+      text_ += '\n';
+    }
     write_initial_depth(scene.initial_depth);
     for (const SceneAttribute& attribute : scene.attributes) {
       line("attribute", attribute.name, attribute.components, name(attribute.interpolation, kInterpolationNames));

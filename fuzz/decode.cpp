@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "corpus/draw_fields.hpp"
+#include "corpus/names.hpp"
 
 namespace surefill::fuzz {
 namespace {
@@ -168,9 +169,68 @@ void decode_part(ByteReader& in, Scissor& scissor) {
 void decode_part(ByteReader& in, Grid& grid) {
   grid = decode_grid(in);
 }
+void decode_part(ByteReader& in, DepthBias& bias) {
+  bias.constant = finite(in.real()), bias.slope = finite(in.real());
+}
 void decode_part(ByteReader&, std::array<Vertex, 8>&) {}  // it is made of the vertices, at the end
 
-SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
+// What a frame has beyond size, samples and depth.
+enum FrameFlag : std::uint32_t {
+  kTakesEqual = 1,  // LEQUAL or GEQUAL
+  kHasOrigin = 2,
+  kHasLocations = 4,
+  kHasLayers = 8,
+  kFirstMore = 16,  // and from here on the rows of kMoreOutputs
+};
+
+void decode_modes(ByteReader& in, Scene& scene) {
+  const std::uint32_t flags = in.byte();
+  if ((flags & kTakesEqual) != 0) {
+    scene.depth_test = scene.depth_test == DepthTest::greater ? DepthTest::greater_equal : DepthTest::less_equal;
+  }
+  if ((flags & kHasOrigin) != 0) {
+    for (int* place : {&scene.origin.x, &scene.origin.y}) {
+      *place = std::clamp(static_cast<int>(in.word()), -kMaxOrigin, kMaxOrigin);
+    }
+  }
+  for (int n = 0; (flags & kHasLocations) != 0 && n < scene.samples; ++n) {
+    const std::uint32_t place = in.byte();
+    scene.sample_locations.push_back({static_cast<int>(place & 15u), static_cast<int>(place >> 4)});
+  }
+  if ((flags & kHasLayers) != 0) scene.layers = 1 + static_cast<int>(in.below(kMaxLayers));
+  std::uint32_t flag = kFirstMore;
+  for (const auto& [word, member] : corpus::kMoreOutputs) scene.more.*member = (flags & flag) != 0, flag <<= 1;
+}
+
+void encode_modes(ByteWriter& out, const Scene& scene) {
+  std::uint32_t flags = 0, flag = kFirstMore;
+  if (scene.depth_test >= DepthTest::less_equal) flags |= kTakesEqual;
+  if (scene.origin != Origin{}) flags |= kHasOrigin;
+  if (!scene.sample_locations.empty()) flags |= kHasLocations;
+  if (scene.layers > 1) flags |= kHasLayers;
+  for (const auto& [word, member] : corpus::kMoreOutputs) flags |= scene.more.*member ? flag : 0u, flag <<= 1;
+  out.byte(flags);
+  if ((flags & kHasOrigin) != 0) {
+    for (const int place : {scene.origin.x, scene.origin.y}) out.word(static_cast<std::uint32_t>(place));
+  }
+  for (const SampleLocation& l : scene.sample_locations) {
+    out.byte(static_cast<std::uint32_t>(l.x) | static_cast<std::uint32_t>(l.y) << 4);
+  }
+  if (scene.layers > 1) out.byte(static_cast<std::uint32_t>(scene.layers - 1));
+}
+
+// Bit of the frame's byte: is the larger depth nearer?
+std::uint32_t reversed_bit(DepthTest test) {
+  return test == DepthTest::greater || test == DepthTest::greater_equal ? 8u : 0u;
+}
+
+// Is there nothing of FrameFlag in it?
+bool is_plain(const Scene& scene) {
+  return scene.depth_test <= DepthTest::greater && scene.origin == Origin{} && scene.sample_locations.empty() &&
+         scene.layers == 1 && scene.more == corpus::MoreOutputs{};
+}
+
+SceneDraw decode_draw(ByteReader& in, std::size_t components, const Scene& scene) {
   SceneDraw draw;
   std::uint32_t flags = in.byte();
   flags |= std::uint32_t{in.byte()} << 8;
@@ -178,7 +238,10 @@ SceneDraw decode_draw(ByteReader& in, std::size_t components, int samples) {
     using Value = std::remove_cvref_t<decltype(draw.*field.member)>;
     if constexpr (!corpus::kIsOptional<Value>) set_choice(in, draw.*field.member);
   });
-  if (samples > 1) draw.conservative = Conservative::none;
+  if (scene.samples > 1 || scene.layers > 1 || !scene.sample_locations.empty()) {
+    draw.conservative = Conservative::none;  // M4, V4, S7
+  }
+  if (scene.layers > 1) draw.depth_write = true;                                   // V4
   if (draw.conservative != Conservative::none) draw.depth_mode = DepthMode::none;  // M4
   draw.vertices.resize(in.below(kMaxVertices + 1));
   std::uint32_t triangles = in.below(kMaxTriangles + 1);
@@ -247,6 +310,10 @@ bool encode_part(ByteWriter& out, const Scissor& scissor) {
 }
 bool encode_part(ByteWriter& out, const Grid& grid) {
   encode_grid(out, grid);
+  return true;
+}
+bool encode_part(ByteWriter& out, const DepthBias& bias) {
+  out.real(bias.constant), out.real(bias.slope);
   return true;
 }
 bool encode_part(ByteWriter&, const std::array<Vertex, 8>&) {
@@ -358,13 +425,15 @@ Scene decode_grid_triangle(std::span<const std::uint8_t> bytes) {
 namespace {
 
 std::optional<Bytes> encode_one(const Scene& scene, bool with_grid) {
-  if (!size_fits(scene) || scene.draws.size() != 1 || !scene.initial_depth.empty()) return std::nullopt;
+  if (!size_fits(scene) || scene.draws.size() != 1 || !scene.initial_depth.empty() || !is_plain(scene)) {
+    return std::nullopt;
+  }
   if (scene.attributes.size() > 1 || component_total(scene) > 1) return std::nullopt;
   const SceneDraw& draw = scene.draws[0];
   if (draw.vertices.size() != 3 || draw.triangles.size() != 1 || !draw.points.empty() || !draw.lines.empty() ||
       draw.triangles[0].vertices != std::array<std::uint32_t, 3>{0, 1, 2} || draw.triangles[0].identifier ||
       draw.viewport || draw.first_index || !draw.depth_write || draw.conservative != Conservative::none ||
-      draw.scissor || draw.grid.has_value() != with_grid || draw.culling_box) {
+      draw.scissor || draw.grid.has_value() != with_grid || draw.culling_box || draw.depth_bias) {
     return std::nullopt;
   }
   ByteWriter out;
@@ -412,9 +481,10 @@ Scene decode_scene(std::span<const std::uint8_t> bytes) {
     const std::uint32_t form = in.byte();  // bits 0-1 components - 1, bits 2-3 interpolation
     scene.attributes[k] = {attribute_name(k), 1 + (form & 3u), field<Interpolation>(form, 2, 3)};
   }
+  decode_modes(in, scene);
   for (float& depth : scene.initial_depth) depth = in.real();
   const std::size_t components = component_total(scene);
-  for (std::uint32_t d = 0; d <= (counts & 3u); ++d) scene.draws.push_back(decode_draw(in, components, scene.samples));
+  for (std::uint32_t d = 0; d <= (counts & 3u); ++d) scene.draws.push_back(decode_draw(in, components, scene));
   return scene;
 }
 
@@ -426,12 +496,13 @@ std::optional<Bytes> encode_scene(const Scene& scene) {
   ByteWriter out;
   const std::uint32_t depths = scene.initial_depth.empty() ? 0u : scene.initial_depth.size() == 1 ? 1u : 2u;
   out.byte(size_byte(scene));
-  out.byte(log2_samples(scene) | bits(scene.depth_test, 3) | bits(scene.attribute_location, 4) | depths << 5);
+  out.byte(log2_samples(scene) | reversed_bit(scene.depth_test) | bits(scene.attribute_location, 4) | depths << 5);
   out.byte(static_cast<std::uint32_t>(scene.draws.size() - 1) | static_cast<std::uint32_t>(scene.attributes.size())
                                                                     << 2);
   for (const SceneAttribute& attribute : scene.attributes) {
     out.byte((attribute.components - 1) | bits(attribute.interpolation, 2));
   }
+  encode_modes(out, scene);
   for (const float depth : scene.initial_depth) out.real(depth);
   for (const SceneDraw& draw : scene.draws) {
     if (!encode_draw(out, draw)) return std::nullopt;
@@ -463,6 +534,7 @@ Scene decode_paths(std::span<const std::uint8_t> bytes) {
   scene.height = kPathSides[sides >> 3 & 7u];
   if (scene.width > kLargeSide && scene.height > kLargeSide) scene.height = kPathSides[0];
   while (scene.width * scene.height * scene.samples > kMostPathSamples) scene.samples /= 2;
+  if (!scene.sample_locations.empty()) scene.sample_locations.resize(static_cast<std::size_t>(scene.samples));
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
   return scene;
@@ -493,7 +565,7 @@ std::vector<Scene> single_triangles(const Scene& scene) {
       single.width = std::min(scene.width, side);
       single.height = std::min(scene.height, side);
       single.samples = scene.samples;
-      single.depth_test = scene.depth_test;
+      single.depth_test = reversed_bit(scene.depth_test) != 0 ? DepthTest::greater : DepthTest::less;
       single.attribute_location = scene.attribute_location;
       if (!scene.attributes.empty())
         single.attributes.push_back({attribute_name(0), 1, scene.attributes[0].interpolation});

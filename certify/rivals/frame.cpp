@@ -84,6 +84,20 @@ constexpr const char* kFeatureNames[] = {"vertices with W <= 0",
                                          "grids of draws",
                                          "NaN and infinities"};
 
+// What version 1 of the adapter has no word for, of a frame.
+const char* mode_without_word(const Target& target, std::span<const Draw> draws) {
+  if (target.origin != Origin{}) return "an origin";
+  if (!target.sample_locations.empty()) return "sample locations of its own";
+  if (target.layers != 1) return "layers";
+  if (!target.winding.empty()) return "the winding";
+  if (target.depth_test > DepthTest::greater) return "depth tests less-equal and greater-equal";
+  for (const Draw& draw : draws) {
+    if (!draw.covered.empty() || !draw.visible.empty()) return "numbers of triangles";
+    if (draw.conservative != Conservative::none && !target.index.empty()) return "the index of conservative draws";
+  }
+  return nullptr;
+}
+
 bool exceeds(std::size_t value, std::uint32_t limit) {
   return limit != 0 && value > limit;
 }
@@ -181,6 +195,7 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
   constexpr std::uint32_t kTaken = SUREFILL_ADAPTER_FILL_RULES | SUREFILL_ADAPTER_GRIDS;  // or the model's
   const std::uint32_t missing = needed_features(target, draws) & ~info.features & ~kTaken;
   if (missing != 0) return kFeatureNames[std::countr_zero(missing)];
+  if (const char* lacking = mode_without_word(target, draws); lacking != nullptr) return lacking;
   for (const Draw& draw : draws) {
     if (const std::string_view field = field_without_word(draw.state()); !field.empty()) {
       return std::string(field) + " of a value that version 1 of the adapter has no word for";

@@ -4,6 +4,7 @@
 #include "arguments.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 
@@ -44,30 +45,53 @@ std::uint64_t samples_of(const Target& target) {
          static_cast<std::uint64_t>(target.samples);
 }
 
+bool layers_ok(const Target& target) {
+  return target.layers >= 1 && target.layers <= kMaxLayers;
+}
+
+bool origin_ok(const Target& target) {
+  const auto good = [](int place) { return place >= -kMaxOrigin && place <= kMaxOrigin; };
+  return good(target.origin.x) && good(target.origin.y);
+}
+
+bool locations_ok(const Target& target) {
+  const auto good = [](int place) { return place >= 0 && place <= 15; };
+  if (!fits(target.sample_locations, static_cast<std::uint64_t>(target.samples))) return false;
+  for (const SampleLocation& location : target.sample_locations) {
+    if (!good(location.x) || !good(location.y)) return false;
+  }
+  return true;
+}
+
 Status validate_target(const Target& target, Outputs& outputs) {
   if (!size_ok(target)) return Status::target_size;
   if (!samples_ok(target)) return Status::target_samples;
-  const std::uint64_t total = samples_of(target);
+  if (!layers_ok(target)) return Status::target_layers;
+  if (!origin_ok(target)) return Status::target_origin;
+  if (!locations_ok(target)) return Status::target_sample_locations;
+  const std::uint64_t total = samples_of(target), in_layers = static_cast<std::uint64_t>(target.layers) * total;
   if (!fits(target.count, total)) return Status::target_count;
-  if (!fits(target.index, total)) return Status::target_index;
-  if (!fits(target.depth, total)) return Status::target_depth;
-  if (!fits(target.barycentrics, 3 * total)) return Status::target_barycentrics;
+  if (!fits(target.winding, total)) return Status::target_winding;
+  if (!fits(target.index, in_layers)) return Status::target_index;
+  if (!fits(target.depth, in_layers)) return Status::target_depth;
+  if (!fits(target.barycentrics, 3 * in_layers)) return Status::target_barycentrics;
   if (null_but_not_empty(target.attributes) || target.attributes.size() > kMaxAttributes)
     return Status::target_attributes;
   for (const AttributeTarget& attribute : target.attributes) {
     if (attribute.components < 1 || attribute.components > kMaxComponents ||
-        !fits(attribute.values, attribute.components * total)) {
+        !fits(attribute.values, attribute.components * in_layers)) {
       return Status::target_attributes;
     }
   }
   if (!fits(target.initial_depth, total)) return Status::target_initial_depth;
-  if (target.depth_test > DepthTest::greater) return Status::target_depth_test;
+  if (target.depth_test > DepthTest::greater_equal) return Status::target_depth_test;
   if (target.attribute_location > AttributeLocation::centroid) return Status::target_attribute_location;
 
-  // The initial depth may be the depth buffer itself, but not overlap it otherwise.
-  const bool same = !target.depth.empty() && target.initial_depth.data() == target.depth.data();
+  // The initial depth may be the depth buffer itself, of one layer, but not overlap it otherwise.
+  const bool same = target.layers == 1 && !target.depth.empty() && target.initial_depth.data() == target.depth.data();
   const bool apart = outputs.add_buffers(target) && (same || !outputs.touched_by(Bytes(target.initial_depth))) &&
-                     !outputs.touched_by(Bytes(target.attributes)) && !outputs.touched_by(Bytes::of(&target));
+                     !outputs.touched_by(Bytes(target.attributes)) && !outputs.touched_by(Bytes::of(&target)) &&
+                     !outputs.touched_by(Bytes(target.sample_locations));
   return apart ? Status::ok : Status::target_overlap;
 }
 
@@ -123,11 +147,22 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
       return Status::draw_grid;
     }
   }
-  if (draw.conservative > Conservative::inner) return Status::draw_conservative;
-  if (draw.conservative != Conservative::none &&
-      (wanted_outputs(target).depth || target.samples != 1 || draw.depth_mode != DepthMode::none || draw.grid)) {
-    return Status::draw_conservative;
+  if (draw.depth_bias && !(std::isfinite(draw.depth_bias->constant) && std::isfinite(draw.depth_bias->slope))) {
+    return Status::draw_depth_bias;
   }
+  if (target.layers > 1 && !draw.depth_write) return Status::target_layers;
+  if (draw.conservative > Conservative::touched) return Status::draw_conservative;
+  if (draw.conservative != Conservative::none) {
+    const Wanted wanted = wanted_outputs(target);
+    if (wanted.shading || !target.depth.empty() || !target.winding.empty() || target.samples != 1 ||
+        draw.depth_mode != DepthMode::none || draw.grid) {
+      return Status::draw_conservative;
+    }
+    if (target.layers > 1) return Status::target_layers;
+    if (!target.sample_locations.empty()) return Status::target_sample_locations;
+  }
+  if (!fits(draw.covered, triangles)) return Status::draw_covered;
+  if (!fits(draw.visible, triangles)) return Status::draw_visible;
   bool apart = !outputs.touched_by(Bytes(draw.vertices)) && !outputs.touched_by(Bytes(draw.indices)) &&
                !outputs.touched_by(Bytes(draw.identifiers)) && !outputs.touched_by(Bytes(draw.attributes));
   for (const AttributeArray& attribute : draw.attributes) apart = apart && !outputs.touched_by(Bytes(attribute.values));
@@ -138,14 +173,35 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
   return Status::ok;
 }
 
+// M10: is it a frame whose conservative draws may have these outputs, and are they apart from each other?
+Status validate_numbers(std::span<const Draw> draws) {
+  const bool conservative =
+      std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.conservative != Conservative::none; });
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    const Bytes covered(draws[d].covered), visible(draws[d].visible);
+    if (conservative && !draws[d].visible.empty()) return Status::draw_visible;
+    if (covered.overlaps(visible)) return Status::target_overlap;
+    const std::span<const Draw> before = draws.first(covered.empty() && visible.empty() ? 0 : d);
+    for (const Draw& other : before) {
+      const Bytes theirs[] = {Bytes(other.covered), Bytes(other.visible)};
+      for (const Bytes& bytes : theirs) {
+        if (covered.overlaps(bytes) || visible.overlaps(bytes)) return Status::target_overlap;
+      }
+    }
+  }
+  return Status::ok;
+}
+
 Status validate_frame(const Target& target, std::span<const Draw> draws, Outputs& outputs) {
+  const bool null = null_but_not_empty(draws);
+  if (!null) outputs.add_numbers(draws);
   if (const Status status = validate_target(target, outputs); status != Status::ok) return status;
-  if (null_but_not_empty(draws)) return Status::draws;
+  if (null) return Status::draws;
   if (outputs.touched_by(Bytes(draws))) return Status::target_overlap;
   for (const Draw& draw : draws) {
     if (const Status status = validate_draw(target, draw, outputs); status != Status::ok) return status;
   }
-  return Status::ok;
+  return outputs.has_numbers() ? validate_numbers(draws) : Status::ok;
 }
 
 }  // namespace
@@ -186,11 +242,11 @@ const char* status_text(Status status) noexcept {
     case Status::target_count:
       return "the count buffer's size is not that of the target";
     case Status::target_index:
-      return "the index buffer's size is not that of the target";
+      return "the index buffer's size is not that of the target's layers";
     case Status::target_depth:
-      return "the depth buffer's size is not that of the target";
+      return "the depth buffer's size is not that of the target's layers";
     case Status::target_barycentrics:
-      return "the barycentrics buffer's size is not 3 floats for each sample of the target";
+      return "the barycentrics buffer's size is not 3 floats for each sample of the target's layers";
     case Status::target_attributes:
       return "an attribute target has components outside 1..4 or a wrong size, or there are over 16";
     case Status::target_initial_depth:
@@ -226,8 +282,8 @@ const char* status_text(Status status) noexcept {
     case Status::draw_depth_mode:
       return "a draw's depth mode is not an enumerator of DepthMode";
     case Status::draw_conservative:
-      return "a draw's conservative mode is not an enumerator of Conservative, or the frame has more than counts, "
-             "several samples, a depth mode or a grid";
+      return "a draw's conservative mode is not an enumerator of Conservative, or the frame has more than count and "
+             "index, several samples, a depth mode or a grid";
     case Status::draw_grid:
       return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding";
     case Status::viewport:
@@ -248,7 +304,22 @@ const char* status_text(Status status) noexcept {
     case Status::to_pixel_vertices:
       return "to_pixel's vertices or results are null, not equally many, or overlap what the call reads";
     case Status::target_outputs:
-      return "the target of visit_coverage asks for an output";
+      return "the target of visit_coverage asks for an output or for layers";
+    case Status::target_origin:
+      return "the target's origin is outside -4194304..4194304";
+    case Status::target_sample_locations:
+      return "the sample locations are neither empty nor one for each sample, one is outside 0..15, or a draw is "
+             "conservative";
+    case Status::target_layers:
+      return "the layers are outside 1..16, or above 1 with a draw that is conservative or writes no depth";
+    case Status::target_winding:
+      return "the winding buffer's size is not that of the target";
+    case Status::draw_depth_bias:
+      return "a draw's depth bias is not finite";
+    case Status::draw_covered:
+      return "a draw's covered numbers are neither empty nor one for each triangle";
+    case Status::draw_visible:
+      return "a draw's visible numbers are neither empty nor one for each triangle, or a draw is conservative";
   }
   return "unknown status";
 }

@@ -33,7 +33,13 @@ static_assert(sizeof(Occlusion) == 1 && static_cast<int>(Occlusion::visible) == 
 static_assert(static_cast<int>(Status::query_answers) == SUREFILL_QUERY_ANSWERS);
 static_assert(static_cast<int>(Status::bad_build) == SUREFILL_BAD_BUILD);
 static_assert(static_cast<int>(Status::target_outputs) == SUREFILL_TARGET_OUTPUTS);
+static_assert(static_cast<int>(Status::draw_visible) == SUREFILL_DRAW_VISIBLE);
+static_assert(static_cast<int>(Status::visitor) == SUREFILL_VISITOR);
 static_assert(static_cast<int>(FillRule::open) == SUREFILL_OPEN);
+static_assert(static_cast<int>(DepthTest::greater_equal) == SUREFILL_GREATER_EQUAL);
+static_assert(static_cast<int>(Conservative::touched) == SUREFILL_CONSERVATIVE_TOUCHED);
+static_assert(sizeof(surefill_place) == sizeof(SampleLocation) && sizeof(surefill_block) == sizeof(CoverageBlock));
+static_assert(kMaxOrigin == SUREFILL_MAX_ORIGIN && kMaxLayers == SUREFILL_MAX_LAYERS);
 static_assert(kMaxTargetSize == SUREFILL_MAX_TARGET_SIZE && kMaxAttributes == SUREFILL_MAX_ATTRIBUTES);
 static_assert(kMaxComponents == SUREFILL_MAX_COMPONENTS && kMaxThreads == SUREFILL_MAX_THREADS);
 
@@ -91,6 +97,10 @@ class Arguments {
     target.initial_depth = {c.initial_depth, c.initial_depth_count};
     target.depth_test = enumerator<DepthTest>(c.depth_test);
     target.attribute_location = enumerator<AttributeLocation>(c.attribute_location);
+    target.layers = c.layers == 0 ? 1 : static_cast<int>(std::min<std::uint32_t>(c.layers, INT32_MAX));
+    target.origin = {c.origin_x, c.origin_y};
+    target.sample_locations = {reinterpret_cast<const SampleLocation*>(c.sample_locations), c.sample_location_count};
+    target.winding = {c.winding, c.winding_count};
     if (c.attributes == nullptr || c.attribute_count > kMaxAttributes) {
       target.attributes = {static_cast<const AttributeTarget*>(nullptr), c.attribute_count};
     } else {
@@ -101,9 +111,11 @@ class Arguments {
       target.attributes = {attribute_targets_, c.attribute_count};
     }
     overlaps_ = !outputs_.add_buffers(target);
-    read(Bytes(from, c.struct_size));
-    read(Bytes(std::span(c.attributes, c.attribute_count)));
-    if (c.initial_depth != c.depth) read(Bytes(target.initial_depth));
+    target_reads_[0] = Bytes(from, c.struct_size);
+    target_reads_[1] = Bytes(std::span(c.attributes, c.attribute_count));
+    target_reads_[2] = Bytes(target.sample_locations);
+    if (c.initial_depth != c.depth) target_reads_[3] = Bytes(target.initial_depth);
+    for (const Bytes& bytes : target_reads_) read(bytes);
     return SUREFILL_OK;
   }
 
@@ -153,6 +165,15 @@ class Arguments {
       }
     }
     draws = {draws_.get(), count};
+    // Only now are all outputs known: what the structs and lists are read from may not be one of them.
+    outputs_.add_numbers(draws);
+    read(Bytes(from, count * stride));
+    for (const Bytes& of_target : target_reads_) read(of_target);
+    for (std::size_t i = 0; i < count && outputs_.has_numbers(); ++i) {
+      surefill_draw c;
+      read_draw(bytes + i * stride, stride, &c);
+      note_reads(c);
+    }
     return SUREFILL_OK;
   }
 
@@ -169,6 +190,7 @@ class Arguments {
       options_.threads = c.threads == 0 ? 1 : c.threads;
       options_.path = enumerator<Path>(c.path);
       options_.context = c.context != nullptr ? &c.context->context : nullptr;
+      options_.executor = {c.executor, c.executor_context};
       read(Bytes(from, c.struct_size));
     }
     surefill_statistics unused;
@@ -232,6 +254,7 @@ class Arguments {
     read(Bytes::of(c.scissor));
     read(Bytes::of(c.grid));
     if (c.culling_box != nullptr) read(Bytes(std::span(c.culling_box, 8)));
+    read(Bytes::of(c.depth_bias));
     const std::size_t listed = listed_attributes(c);
     read(Bytes(std::span(c.attributes, listed)));
     for (std::size_t k = 0; k < listed; ++k)
@@ -261,6 +284,9 @@ class Arguments {
     if (c.culling_box != nullptr) {
       std::copy_n(vertices_of(c.culling_box, 8).begin(), 8, draw.culling_box.emplace().begin());
     }
+    if (c.depth_bias != nullptr) draw.depth_bias = DepthBias{c.depth_bias->constant, c.depth_bias->slope};
+    draw.covered = {c.covered, c.covered_count};
+    draw.visible = {c.visible, c.visible_count};
     const std::size_t listed = listed_attributes(c);
     for (std::size_t k = 0; k < listed; ++k) {
       const surefill_attribute_array& a = c.attributes[k];
@@ -275,6 +301,7 @@ class Arguments {
   std::unique_ptr<Vertex[]> vertices_;  // of all draws whose vertices have a stride
   Options options_;
   Outputs outputs_;
+  Bytes target_reads_[4];  // what is read of the target
   bool overlaps_ = false;  // an output overlaps one of the originals
 };
 
@@ -366,6 +393,30 @@ surefill_status surefill_render(const surefill_target* target, const surefill_dr
   if (status != SUREFILL_OK) return status;
   return arguments.run(
       statistics, [&](Statistics* s, const Options& o) { return render(arguments.target, arguments.draws, s, o); });
+}
+
+surefill_status surefill_visit_coverage(const surefill_target* target, const surefill_draw* draws, size_t draw_count,
+                                        surefill_visitor visitor, void* context, const surefill_options* options,
+                                        surefill_statistics* statistics) {
+  Arguments arguments(statistics);
+  surefill_status status = arguments.read_frame(target, draws, draw_count);
+  if (status == SUREFILL_OK) status = arguments.read_options(options, statistics);
+  if (status != SUREFILL_OK) return status;
+  struct Callback {
+    surefill_visitor visitor;
+    void* context;
+  } callback{visitor, context};
+  CoverageVisitor blocks;
+  blocks.context = &callback;
+  if (visitor != nullptr) {
+    blocks.visit = [](void* to, std::span<const CoverageBlock> list) {
+      const auto& own = *static_cast<const Callback*>(to);
+      own.visitor(own.context, reinterpret_cast<const surefill_block*>(list.data()), list.size());
+    };
+  }
+  return arguments.run(statistics, [&](Statistics* s, const Options& o) {
+    return visit_coverage(arguments.target, arguments.draws, blocks, s, o);
+  });
 }
 
 surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,

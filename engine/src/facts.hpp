@@ -22,7 +22,7 @@ struct PixelBox {
   bool contains(int x, int y) const { return x0 <= x && x < x1 && y0 <= y && y < y1; }
 };
 
-// A sample position in pixels: a multiple of 1/16 in [0, kMaxTargetSize], exact in double.
+// A place in space, in pixels: a multiple of 1/16, at most kMaxOrigin + kMaxTargetSize in magnitude, exact in double.
 struct SamplePosition {
   double x, y;
 };
@@ -43,10 +43,18 @@ inline Wanted wanted_outputs(const Target& target) {
   return wanted;
 }
 
-// Where sample n of a pixel lies, from the pixel's corner (S4).
-inline SamplePosition sample_offset(int samples, int n) {
-  const SampleLocation location = sample_location(samples, n);
+// Where sample n of a pixel lies, from the pixel's corner (S4, S7).
+inline SamplePosition sample_offset(const Target& target, int n) {
+  const SampleLocation location = target.sample_locations.empty()
+                                      ? sample_location(target.samples, n)
+                                      : target.sample_locations[static_cast<std::size_t>(n)];
   return {location.x / 16.0, location.y / 16.0};
+}
+
+// And where that is in pixel (x, y) of space.
+inline SamplePosition place_of_sample(const Target& target, int x, int y, int n) {
+  const SamplePosition offset = sample_offset(target, n);
+  return {x + offset.x, y + offset.y};
 }
 
 // The element of a buffer that sample n of pixel (x, y) has.
@@ -56,10 +64,18 @@ inline std::size_t sample_index(const Target& target, int x, int y, std::size_t 
          n;
 }
 
+// Is the larger depth nearer (V1)? And is the later one of equal depths seen (V5)?
+inline bool is_reversed(DepthTest test) {
+  return test == DepthTest::greater || test == DepthTest::greater_equal;
+}
+inline bool takes_equal(DepthTest test) {
+  return test >= DepthTest::less_equal;
+}
+
 // The depth of an empty sample without initial depth (V1).
 inline float empty_depth(DepthTest test) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  return test == DepthTest::greater ? -kInfinity : kInfinity;
+  return is_reversed(test) ? -kInfinity : kInfinity;
 }
 
 // ---- of a draw
@@ -67,9 +83,9 @@ inline std::size_t triangles_of(const Draw& draw) {
   return draw.indices.size() / 3;
 }
 
-// Target and scissor (M3).
+// Target and scissor (M3), in pixels of space (S6).
 inline PixelBox region_of(const Target& target, const Draw& draw) {
-  PixelBox region{0, 0, target.width, target.height};
+  PixelBox region{target.origin.x, target.origin.y, target.origin.x + target.width, target.origin.y + target.height};
   if (draw.scissor) {
     region = {std::max(region.x0, draw.scissor->x0), std::max(region.y0, draw.scissor->y0),
               std::min(region.x1, draw.scissor->x1), std::min(region.y1, draw.scissor->y1)};
@@ -83,10 +99,15 @@ inline std::size_t stride_of(const AttributeArray& attribute) {
   return attribute.stride != 0 ? attribute.stride : attribute.components;
 }
 
-// Does culling leave out what faces so? `facing` has the sign of D (F1, F2) or, under Grid, that of a sample (G1).
+// Is it the front that faces so? `facing` has the sign of D (F1) or, under Grid, that of a sample (G1); D = 0 is
+// back-facing (M4b).
+inline bool faces_front(const DrawState& draw, int facing) {
+  return facing != 0 && (facing > 0) == (draw.front_face == FrontFace::clockwise);
+}
+
+// Does culling leave out what faces so (F2)?
 inline bool culls(const DrawState& draw, int facing) {
-  const bool front = (facing > 0) == (draw.front_face == FrontFace::clockwise);
-  return draw.cull == (front ? Cull::front : Cull::back);
+  return draw.cull == (faces_front(draw, facing) ? Cull::front : Cull::back);
 }
 
 // ---- of a triangle, by its position in the draw

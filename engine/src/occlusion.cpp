@@ -229,6 +229,7 @@ Status OcclusionBuffer::resize(int width, int height, DepthTest depth_test) noex
   Target target;
   target.width = width, target.height = height, target.depth_test = depth_test;
   if (const Status status = validate(target, {}); status != Status::ok) return status;
+  if (takes_equal(depth_test)) return Status::target_depth_test;  // V5
   std::unique_ptr<State> state = State::make(width, height, depth_test);
   if (state == nullptr) return Status::out_of_memory;
   delete std::exchange(state_, state.release());

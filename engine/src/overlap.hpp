@@ -26,6 +26,7 @@ struct Bytes {
     return {object, object == nullptr ? 0 : sizeof(T)};
   }
 
+  bool empty() const { return begin == end; }
   // Do they share a byte? Empty ones share none.
   bool overlaps(const Bytes& other) const {
     return begin < end && other.begin < other.end && begin < other.end && other.begin < end;
@@ -45,23 +46,35 @@ class Outputs {
   // All buffers of a target; false if they overlap. A list of attributes that is null or too long is not read.
   bool add_buffers(const Target& target) {
     bool apart = add(Bytes(target.count)) && add(Bytes(target.index)) && add(Bytes(target.depth)) &&
-                 add(Bytes(target.barycentrics));
+                 add(Bytes(target.barycentrics)) && add(Bytes(target.winding));
     if (target.attributes.data() == nullptr || target.attributes.size() > kMaxAttributes) return apart;
     for (const AttributeTarget& attribute : target.attributes) apart = apart && add(Bytes(attribute.values));
     return apart;
   }
 
+  // The numbers of the draws' triangles (M10), where one asks for them. The list stays where it is.
+  void add_numbers(std::span<const Draw> draws) {
+    for (const Draw& draw : draws) {
+      if (!draw.covered.empty() || !draw.visible.empty()) draws_ = draws;
+    }
+  }
+  bool has_numbers() const { return !draws_.empty(); }
+
   bool touched_by(const Bytes& bytes) const {
     for (std::size_t i = 0; i < count_; ++i) {
       if (bytes_[i].overlaps(bytes)) return true;
+    }
+    for (const Draw& draw : draws_) {
+      if (Bytes(draw.covered).overlaps(bytes) || Bytes(draw.visible).overlaps(bytes)) return true;
     }
     return false;
   }
 
  private:
-  static constexpr std::size_t kMost = 6 + kMaxAttributes;  // four buffers, the attributes, statistics, diagnostics
+  static constexpr std::size_t kMost = 7 + kMaxAttributes;  // five buffers, the attributes, statistics, diagnostics
   Bytes bytes_[kMost];
   std::size_t count_ = 0;
+  std::span<const Draw> draws_;  // those with numbers, or none
 };
 
 }  // namespace surefill

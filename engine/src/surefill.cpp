@@ -3,6 +3,8 @@
 // The public calls: check the arguments, set the floating-point state, take the path.
 #include "surefill/surefill.hpp"
 
+#include <algorithm>
+
 #include "arguments.hpp"
 #include "build_check.hpp"
 #include "facts.hpp"
@@ -45,11 +47,18 @@ struct CallersCode {
   }
 };
 
+// Does somebody ask for an output of samples or of triangles?
+bool asks_for_outputs(const Target& target, std::span<const Draw> draws) {
+  const bool numbers = std::any_of(draws.begin(), draws.end(),
+                                   [](const Draw& draw) { return !draw.covered.empty() || !draw.visible.empty(); });
+  return wanted_outputs(target).depth || !target.count.empty() || !target.winding.empty() || numbers;
+}
+
 // Neither is inlined: they need the engine's floating-point state.
 [[gnu::noinline]] Status draw(const Target& target, std::span<const Draw> draws,
                               [[maybe_unused]] const Options& options, Diagnostics& diagnostics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
-  if (options.path == Path::automatic && fast::supports(draws)) {
+  if (options.path == Path::automatic && fast::supports(target, draws)) {
     return fast::render(target, draws, options, diagnostics);
   }
 #endif
@@ -60,7 +69,7 @@ struct CallersCode {
 [[gnu::noinline]] Status visit(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
                                [[maybe_unused]] const Options& options, Diagnostics& diagnostics) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
-  if (options.path == Path::automatic && fast::supports(draws)) {
+  if (options.path == Path::automatic && fast::supports(target, draws)) {
     return fast::visit_coverage(target, draws, visitor, options, diagnostics);
   }
 #endif
@@ -121,7 +130,7 @@ Status visit_coverage(const Target& target, std::span<const Draw> draws, const C
                       Statistics* statistics, const Options& options) noexcept {
   if (!is_exact_build()) return Status::bad_build;
   if (const Status status = check_call(target, draws, statistics, options); status != Status::ok) return status;
-  if (wanted_outputs(target).depth || !target.count.empty()) return Status::target_outputs;
+  if (asks_for_outputs(target, draws) || target.layers != 1) return Status::target_outputs;
   if (visitor.visit == nullptr) return Status::visitor;
   FloatEnvironment environment;
   CallersCode callers{environment, options.executor, visitor};

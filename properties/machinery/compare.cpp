@@ -16,6 +16,10 @@ std::string show(std::uint32_t value) {
   return value == kNoTriangle ? "none" : std::to_string(value);
 }
 
+std::string show(std::int32_t value) {
+  return std::to_string(value);
+}
+
 std::string show(float value) {
   char text[64];
   std::snprintf(text, sizeof text, "%a (%.9g)", static_cast<double>(value), static_cast<double>(value));
@@ -23,6 +27,10 @@ std::string show(float value) {
 }
 
 bool same(std::uint32_t a, std::uint32_t b) {
+  return a == b;
+}
+
+bool same(std::int32_t a, std::int32_t b) {
   return a == b;
 }
 
@@ -49,11 +57,38 @@ void compare_buffer(const std::string& name, const std::vector<Value>& expected,
     if (same(expected[i], actual[i])) continue;
     ++result.differences;
     if (result.first.size() >= keep) continue;
-    const std::size_t sample = i / components;
+    const std::size_t total = width * static_cast<std::size_t>(image.height) * samples;
+    const std::size_t layer = i / components / total, sample = i / components % total;
     const std::size_t pixel = sample / samples;
-    result.first.push_back({name, static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+    result.first.push_back({layer == 0 ? name : name + " of layer " + std::to_string(layer),
+                            static_cast<int>(pixel % width), static_cast<int>(pixel / width),
                             static_cast<int>(sample % samples), static_cast<int>(i % components), show(expected[i]),
                             show(actual[i])});
+  }
+}
+
+// The numbers of the triangles of each draw (M10).
+void compare_numbers(const std::string& name, const std::vector<std::vector<std::uint64_t>>& expected,
+                     const std::vector<std::vector<std::uint64_t>>& actual, std::size_t keep, Comparison& result) {
+  const auto differ = [&](std::size_t draw, std::size_t triangle, const std::string& wanted, const std::string& got) {
+    ++result.differences;
+    if (result.first.size() >= keep) return;
+    result.first.push_back({name + " of triangle " + std::to_string(triangle) + " of draw " + std::to_string(draw), 0,
+                            0, 0, 0, wanted, got});
+  };
+  if (expected.size() != actual.size()) {
+    return differ(0, 0, std::to_string(expected.size()) + " draws", std::to_string(actual.size()) + " draws");
+  }
+  for (std::size_t d = 0; d < expected.size(); ++d) {
+    result.values += expected[d].size();
+    if (expected[d].size() != actual[d].size()) {
+      differ(d, 0, std::to_string(expected[d].size()) + " numbers", std::to_string(actual[d].size()) + " numbers");
+      continue;
+    }
+    for (std::size_t t = 0; t < expected[d].size(); ++t) {
+      if (expected[d][t] == actual[d][t]) continue;
+      differ(d, t, std::to_string(expected[d][t]), std::to_string(actual[d][t]));
+    }
   }
 }
 
@@ -80,14 +115,12 @@ Renderer clipped_oracle_renderer() {
 }
 
 corpus::Outputs outputs_of(const corpus::Scene& scene) {
-  for (const corpus::SceneDraw& draw : scene.draws) {
-    if (draw.conservative == Conservative::none) continue;
-    corpus::Outputs outputs;
-    outputs.attributes = false;
-    corpus::for_each_output([&](const auto& output) { outputs.*output.asked = output.when_conservative; });
-    return outputs;
-  }
-  return {};
+  const bool conservative = corpus::is_conservative(scene);
+  corpus::Outputs outputs;
+  outputs.attributes = !conservative;
+  outputs.numbers = scene.more.numbers;
+  corpus::for_each_output([&](const auto& output) { outputs.*output.asked = output.has(scene, conservative); });
+  return outputs;
 }
 
 Comparison compare(const corpus::Scene& scene, const corpus::Image& expected, const corpus::Image& actual,
@@ -99,6 +132,8 @@ Comparison compare(const corpus::Scene& scene, const corpus::Image& expected, co
     compare_buffer(std::string(output.name), expected.*output.image, actual.*output.image, expected, output.elements,
                    keep, result);
   });
+  compare_numbers("covered", expected.covered, actual.covered, keep, result);
+  compare_numbers("visible", expected.visible, actual.visible, keep, result);
   if (expected.attributes.size() != actual.attributes.size()) {
     ++result.differences;
     if (result.first.size() < keep) {
@@ -121,6 +156,7 @@ Comparison compare(const corpus::Scene& scene, const Renderer& expected, const R
   corpus::Outputs asked = outputs_of(scene);
   corpus::for_each_output([&](const auto& output) { asked.*output.asked &= outputs.*output.asked; });
   asked.attributes = asked.attributes && outputs.attributes;
+  asked.numbers = asked.numbers && outputs.numbers;
   corpus::Frame expected_frame(scene, asked);
   corpus::Frame actual_frame(scene, asked);
   const Status expected_status = expected(expected_frame.target(), expected_frame.draws());
@@ -143,6 +179,9 @@ std::string describe(const Difference& difference, int samples) {
     return "status: expected \"" + difference.expected + "\", got \"" + difference.actual + "\"";
   }
   std::string line = difference.output;
+  if (line.starts_with("covered of") || line.starts_with("visible of")) {
+    return line + ": expected " + difference.expected + ", got " + difference.actual;
+  }
   if (line == "barycentrics") {
     line = "barycentric b";
     line += std::to_string(difference.component);

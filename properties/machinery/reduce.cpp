@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "corpus/draw_fields.hpp"
+#include "corpus/names.hpp"
 
 namespace surefill::properties {
 
@@ -107,6 +108,35 @@ int saturated(std::int64_t value) {
       std::clamp<std::int64_t>(value, std::numeric_limits<int>::min(), std::numeric_limits<int>::max()));
 }
 
+// Moves what is in the scene by (-x, -y) pixels; rounded where there is no viewport or the numbers are odd.
+void move_by(Scene& scene, int x0, int y0) {
+  const auto move = [x0, y0](auto& vertex) {
+    vertex.x -= static_cast<float>(x0) * vertex.w;
+    vertex.y -= static_cast<float>(y0) * vertex.w;
+  };
+  for (SceneDraw& draw : scene.draws) {
+    draw.culling_box.reset();  // whose promise (M6) a rounded move could break
+    if (draw.viewport) {
+      draw.viewport->x -= static_cast<float>(x0);
+      draw.viewport->y -= static_cast<float>(y0);
+    } else {
+      for (SceneVertex& vertex : draw.vertices) move(vertex);
+    }
+    if (draw.scissor) {
+      draw.scissor->x0 = saturated(std::int64_t{draw.scissor->x0} - x0);
+      draw.scissor->x1 = saturated(std::int64_t{draw.scissor->x1} - x0);
+      draw.scissor->y0 = saturated(std::int64_t{draw.scissor->y0} - y0);
+      draw.scissor->y1 = saturated(std::int64_t{draw.scissor->y1} - y0);
+    }
+  }
+}
+
+// The same target in the same place, with its corner at the origin (S6).
+void move_to_origin(Scene& scene) {
+  move_by(scene, scene.origin.x, scene.origin.y);
+  scene.origin = {};
+}
+
 // The pixels [x0, x0 + width) x [y0, y0 + height) of the scene's target, moved to the origin. With x0 = y0 = 0 exact;
 // else the move rounds, and the result is a scene like it.
 Scene cropped(const Scene& scene, int x0, int y0, int width, int height) {
@@ -125,35 +155,20 @@ Scene cropped(const Scene& scene, int x0, int y0, int width, int height) {
       }
     }
   }
-  if (x0 == 0 && y0 == 0) return simpler;
-  const auto move = [x0, y0](auto& vertex) {
-    vertex.x -= static_cast<float>(x0) * vertex.w;
-    vertex.y -= static_cast<float>(y0) * vertex.w;
-  };
-  for (SceneDraw& draw : simpler.draws) {
-    draw.culling_box.reset();  // whose promise (M6) a rounded move could break
-    if (draw.viewport) {
-      draw.viewport->x -= static_cast<float>(x0);
-      draw.viewport->y -= static_cast<float>(y0);
-    } else {
-      for (SceneVertex& vertex : draw.vertices) move(vertex);
-    }
-    if (draw.scissor) {
-      draw.scissor->x0 = saturated(std::int64_t{draw.scissor->x0} - x0);
-      draw.scissor->x1 = saturated(std::int64_t{draw.scissor->x1} - x0);
-      draw.scissor->y0 = saturated(std::int64_t{draw.scissor->y0} - y0);
-      draw.scissor->y1 = saturated(std::int64_t{draw.scissor->y1} - y0);
-    }
-  }
+  if (x0 != 0 || y0 != 0) move_by(simpler, x0, y0);
   return simpler;
 }
-
 bool simpler_target(const Scene& scene, const Visit& visit) {
   // The pixels that some scissor leaves are the likeliest to matter: without it, scenes of one far pixel shrink slowly.
   for (const SceneDraw& draw : scene.draws) {
     if (!draw.scissor) continue;
-    const int x0 = std::max(draw.scissor->x0, 0), x1 = std::min(draw.scissor->x1, scene.width);
-    const int y0 = std::max(draw.scissor->y0, 0), y1 = std::min(draw.scissor->y1, scene.height);
+    const auto within = [](int side, int origin, int size) {
+      return static_cast<int>(std::clamp<std::int64_t>(std::int64_t{side} - origin, 0, size));
+    };
+    const int x0 = within(draw.scissor->x0, scene.origin.x, scene.width);
+    const int x1 = within(draw.scissor->x1, scene.origin.x, scene.width);
+    const int y0 = within(draw.scissor->y0, scene.origin.y, scene.height);
+    const int y1 = within(draw.scissor->y1, scene.origin.y, scene.height);
     if (x0 >= x1 || y0 >= y1 || (x1 - x0 == scene.width && y1 - y0 == scene.height)) continue;
     if (visit(cropped(scene, x0, y0, x1 - x0, y1 - y0))) return true;
     if ((x1 < scene.width || y1 < scene.height) && visit(cropped(scene, 0, 0, x1, y1))) return true;
@@ -170,6 +185,7 @@ bool simpler_target(const Scene& scene, const Visit& visit) {
     for (int samples = 1; samples < scene.samples; samples *= 2) {
       Scene simpler = scene;
       simpler.samples = samples;
+      if (!scene.sample_locations.empty()) simpler.sample_locations.resize(static_cast<std::size_t>(samples));
       if (scene.initial_depth.size() > 1) {
         const std::size_t pixels = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height);
         simpler.initial_depth.clear();
@@ -243,6 +259,19 @@ bool simpler_frame_state(const Scene& scene, const Visit& visit) {
   }
   if (scene.depth_test != DepthTest::less && with(scene, visit, [](Scene& s) { s.depth_test = DepthTest::less; })) {
     return true;
+  }
+  for (const auto& [word, member] : corpus::kMoreOutputs) {
+    if (scene.more.*member && with(scene, visit, [m = member](Scene& s) { s.more.*m = false; })) return true;
+  }
+  if (!scene.sample_locations.empty() && with(scene, visit, [](Scene& s) { s.sample_locations.clear(); })) return true;
+  for (int layers = 1; layers < scene.layers; layers *= 2) {
+    if (with(scene, visit, [layers](Scene& s) { s.layers = layers; })) return true;
+  }
+  if (scene.origin != Origin{}) {
+    if (with(scene, visit, [](Scene& s) { s.origin = {}; })) return true;
+    if (with(scene, visit, [](Scene& s) { move_to_origin(s); })) return true;
+    if (scene.origin.x != 0 && with(scene, visit, [](Scene& s) { s.origin.x /= 2; })) return true;
+    if (scene.origin.y != 0 && with(scene, visit, [](Scene& s) { s.origin.y /= 2; })) return true;
   }
   return scene.attribute_location != AttributeLocation::centre &&
          with(scene, visit, [](Scene& s) { s.attribute_location = AttributeLocation::centre; });

@@ -44,7 +44,7 @@ class SUREFILL_API OcclusionBuffer {
   OcclusionBuffer(OcclusionBuffer&& other) noexcept;             // leaves 0 x 0 pixels behind
   OcclusionBuffer& operator=(OcclusionBuffer&& other) noexcept;  // swaps
 
-  // Gives the buffer a size in pixels [S5] and the sense of depth, and clears it. target_size, target_depth_test or
+  // Gives the buffer a size in pixels [S5] and the sense of depth, less or greater, and clears it. target_size, target_depth_test or
   // out_of_memory: the buffer is as it was. Memory: 4.1 bytes a pixel.
   Status resize(int width, int height, DepthTest depth_test = DepthTest::less) noexcept;
 

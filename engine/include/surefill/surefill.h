@@ -38,6 +38,8 @@ extern "C" {
 #define SUREFILL_MAX_COMPONENTS 4
 /* Threads of a call. */
 #define SUREFILL_MAX_THREADS 256
+#define SUREFILL_MAX_ORIGIN 4194304 /* pixels, each way and sign */
+#define SUREFILL_MAX_LAYERS 16
 
 /* What a call returns: the argument at fault. Numbers are never reused. */
 typedef enum surefill_status {
@@ -74,9 +76,17 @@ typedef enum surefill_status {
   SUREFILL_OPTIONS_PATH,                 /* not a surefill_path */
   SUREFILL_QUERY_BOXES,                  /* boxes or rectangles null, or with a number that is not finite */
   SUREFILL_QUERY_ANSWERS,                /* answers null, or not one for each box */
+  SUREFILL_VISITOR,                      /* of surefill_visit_coverage: the visitor is NULL */
   SUREFILL_BAD_BUILD = 33, /* the library was compiled with options that break exact arithmetic (docs/library.md) */
-  SUREFILL_TO_PIXEL_VERTICES = 34, /* of to_pixel: vertices or results null, or they overlap */
-  SUREFILL_TARGET_OUTPUTS = 35,    /* of streams, which C has not: the target asks for an output */
+  SUREFILL_TO_PIXEL_VERTICES = 34,  /* of to_pixel: vertices or results null, or they overlap */
+  SUREFILL_TARGET_OUTPUTS = 35,     /* of surefill_visit_coverage: the target asks for an output, or for layers */
+  SUREFILL_TARGET_ORIGIN,           /* origin_x or origin_y above SUREFILL_MAX_ORIGIN in magnitude */
+  SUREFILL_TARGET_SAMPLE_LOCATIONS, /* neither 0 nor one a sample, a place outside 0..15, or with a conservative draw */
+  SUREFILL_TARGET_LAYERS,   /* above SUREFILL_MAX_LAYERS, or above 1 with depth write off or a conservative draw [V4] */
+  SUREFILL_TARGET_WINDING,  /* neither 0 nor one a sample */
+  SUREFILL_DRAW_DEPTH_BIAS, /* a number that is not finite */
+  SUREFILL_DRAW_COVERED,    /* neither 0 nor one a triangle */
+  SUREFILL_DRAW_VISIBLE,    /* the same, or with a conservative draw [M10] */
   /* Of this interface alone. */
   SUREFILL_NULL_TARGET = 1000,     /* target is null */
   SUREFILL_NULL_VIEWPORT,          /* viewport is null */
@@ -106,8 +116,14 @@ typedef enum surefill_fill_rule {
 typedef enum surefill_front_face { SUREFILL_CLOCKWISE = 0, SUREFILL_COUNTER_CLOCKWISE } surefill_front_face;
 /* Which facing is not drawn [F2]. */
 typedef enum surefill_cull { SUREFILL_CULL_NONE = 0, SUREFILL_CULL_FRONT, SUREFILL_CULL_BACK } surefill_cull;
-/* Which depth is nearer: the smaller, or with reversed z the greater [V1]. */
-typedef enum surefill_depth_test { SUREFILL_LESS = 0, SUREFILL_GREATER } surefill_depth_test;
+/* Which depth is nearer: the smaller, or with reversed z the greater [V1]. With the last two the later one of equal
+ * depths is seen [V5]. */
+typedef enum surefill_depth_test {
+  SUREFILL_LESS = 0,
+  SUREFILL_GREATER,
+  SUREFILL_LESS_EQUAL,
+  SUREFILL_GREATER_EQUAL
+} surefill_depth_test;
 /* What happens outside 0 <= z <= 1 [I5]. */
 typedef enum surefill_depth_mode {
   SUREFILL_DEPTH_NONE = 0, /* nothing: any depth is kept */
@@ -122,11 +138,14 @@ typedef enum surefill_interpolation {
 } surefill_interpolation;
 /* Where in a pixel of several samples attributes are taken [M1]. */
 typedef enum surefill_attribute_location { SUREFILL_CENTRE = 0, SUREFILL_CENTROID } surefill_attribute_location;
-/* Whole pixels instead of samples: those that the triangle touches, or those that lie in it [M4]. */
+/* Whole pixels instead of samples: those that the triangle meets, or those that lie in it [M4], those that share an area
+ * with it [M4a], those that it meets though it be degenerate [M4b]. */
 typedef enum surefill_conservative {
   SUREFILL_CONSERVATIVE_NONE = 0,
   SUREFILL_CONSERVATIVE_OVER,
-  SUREFILL_CONSERVATIVE_INNER
+  SUREFILL_CONSERVATIVE_INNER,
+  SUREFILL_CONSERVATIVE_OVERLAP,
+  SUREFILL_CONSERVATIVE_TOUCHED
 } surefill_conservative;
 /* How positions go to the grid [section 6]. */
 typedef enum surefill_grid_rounding {
@@ -168,6 +187,16 @@ typedef struct surefill_grid {
   uint32_t rounding;          /* surefill_grid_rounding */
 } surefill_grid;
 
+/* Depth is z + constant + slope m, rounded once; m is the larger of |dz/dx| and |dz/dy|, a pixel [I8]. Finite. */
+typedef struct surefill_depth_bias {
+  float constant, slope;
+} surefill_depth_bias;
+
+/* A place within a pixel, from its top left corner, in 1/16 pixel: 0..15. */
+typedef struct surefill_place {
+  int32_t x, y;
+} surefill_place;
+
 /* One attribute of every vertex of a draw. Component c of vertex v is values[v * stride + c]. */
 typedef struct surefill_attribute_array {
   const float* values;
@@ -199,16 +228,22 @@ typedef struct surefill_draw {
   const surefill_grid* grid;          /* NULL: none, positions are exact */
   const surefill_vertex* culling_box; /* NULL, or 8 corners whose hull contains the draw: the caller's promise [M6] */
   size_t vertex_stride; /* bytes, at least 16, a multiple of 4; 0 means 16: dense. Other strides cost a copy. */
+  const surefill_depth_bias* depth_bias; /* NULL: none */
+  uint64_t* covered;                     /* one a triangle: at how many samples of the frame it is counted [M10] */
+  size_t covered_count;
+  uint64_t* visible; /* one a triangle: at how many it is the visible one, in layer 0, when all is drawn [M10] */
+  size_t visible_count;
 } surefill_draw;
 
 /* An attribute image. Component c of sample s is values[s * components + c]. */
 typedef struct surefill_attribute_target {
   float* values;
-  size_t value_count;  /* floats: components * surefill_sample_total, or 0: not asked for */
+  size_t value_count;  /* floats: components * layers * surefill_sample_total, or 0: not asked for */
   uint32_t components; /* 1..SUREFILL_MAX_COMPONENTS; must be set */
 } surefill_attribute_target;
 
-/* Where the image goes. Sample n of pixel (x, y) is element (y * width + x) * samples + n of every buffer. Each buffer
+/* Where the image goes. Sample n of pixel (x, y) is element (y * width + x) * samples + n of every buffer; in layer l of
+ * those that have layers (index, depth, barycentrics, attributes), it is that and l * surefill_sample_total. Each buffer
  * asked for is overwritten whole; a sample without a visible triangle holds index SUREFILL_NO_TRIANGLE, depth +inf
  * (-inf for SUREFILL_GREATER) or the initial depth, barycentrics and attributes +0 [V1]. */
 typedef struct surefill_target {
@@ -229,6 +264,12 @@ typedef struct surefill_target {
   const float* initial_depth; /* a fragment must beat it strictly [V1]; may be the depth buffer itself */
   size_t initial_depth_count;
   uint32_t attribute_location; /* surefill_attribute_location */
+  uint32_t layers;             /* 1..SUREFILL_MAX_LAYERS; 0 means 1 [V4] */
+  int32_t origin_x, origin_y; /* the pixel of space that is pixel (0, 0) [S6]; up to SUREFILL_MAX_ORIGIN in magnitude */
+  const surefill_place* sample_locations; /* one a sample; or NULL: the standard ones [S7] */
+  size_t sample_location_count;
+  int32_t* winding; /* front-facing triangles minus back-facing ones that cover the sample [M9] */
+  size_t winding_count;
 } surefill_target;
 
 /* Working memory that outlives calls: what one has allocated, the next ones with the same context use again. Several
@@ -239,13 +280,31 @@ SUREFILL_API surefill_context* surefill_context_create(void);
 /* Frees the context and its memory, while no call uses it. NULL does nothing. */
 SUREFILL_API void surefill_context_destroy(surefill_context* context);
 
+/* The caller's own threads: run(context, items, task, argument) calls task(argument, i) once for each i below items, on
+ * any threads and in any order, and returns when all have returned; no task waits for another. */
+typedef void (*surefill_executor)(void* context, size_t items, void (*task)(void* argument, size_t item),
+                                  void* argument);
+
 /* How a frame is drawn. */
 typedef struct surefill_options {
-  size_t struct_size;        /* sizeof(surefill_options) */
-  int32_t threads;           /* 1..SUREFILL_MAX_THREADS; 0 means 1 */
-  uint32_t path;             /* surefill_path */
-  surefill_context* context; /* where working memory comes from and stays, or NULL */
+  size_t struct_size;         /* sizeof(surefill_options) */
+  int32_t threads;            /* 1..SUREFILL_MAX_THREADS; 0 means 1 */
+  uint32_t path;              /* surefill_path */
+  surefill_context* context;  /* where working memory comes from and stays, or NULL */
+  surefill_executor executor; /* whose threads work; or NULL: the call starts threads - 1 of its own */
+  void* executor_context;
 } surefill_options;
+
+/* The samples of an 8 x 8 block of pixels that a triangle covers. */
+typedef struct surefill_block {
+  uint32_t draw, triangle; /* positions: in the list of draws, in the draw */
+  int32_t x, y;            /* the block's first pixel: multiples of 8 from the target's corner */
+  int32_t sample;          /* of each pixel */
+  uint64_t mask;           /* bit 8 j + i: pixel (x + i, y + j). Not 0 */
+} surefill_block;
+
+/* Receives blocks; all of one call belong to one triangle and sample. Returns normally. */
+typedef void (*surefill_visitor)(void* context, const surefill_block* blocks, size_t count);
 
 /* What the triangles of a call were; each counts once, as the first that fits [M11]. */
 typedef struct surefill_statistics {
@@ -303,7 +362,15 @@ SUREFILL_API surefill_status surefill_render(const surefill_target* target, cons
                                              size_t draw_count, const surefill_options* options,
                                              surefill_statistics* statistics);
 
-/* Makes an occlusion buffer of width x height pixels, empty, into *occlusion. depth_test: surefill_depth_test. Errors:
+/* Streams coverage instead of storing an image: for each sample number, draw and triangle, the blocks with samples that
+ * the triangle covers, as the count has them [M2]. The target gives size, samples, origin and sample locations, and asks
+ * for no output. Within a tile of 64 x 64 pixels the triangles of a sample number come in order and one at a time; with
+ * several threads, those of other tiles come at once. Errors: those of surefill_render, TARGET_OUTPUTS, VISITOR. */
+SUREFILL_API surefill_status surefill_visit_coverage(const surefill_target* target, const surefill_draw* draws,
+                                                     size_t draw_count, surefill_visitor visitor, void* context,
+                                                     const surefill_options* options, surefill_statistics* statistics);
+
+/* Makes an occlusion buffer of width x height pixels, empty, into *occlusion. depth_test: LESS or GREATER. Errors:
  * NULL_OCCLUSION, TARGET_SIZE, TARGET_DEPTH_TEST, OUT_OF_MEMORY, BAD_BUILD. */
 SUREFILL_API surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
                                                        surefill_occlusion** occlusion);

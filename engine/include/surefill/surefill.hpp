@@ -34,7 +34,7 @@
 // Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
 //            only if Options asks for them, and they end with it; or it uses the caller's.
 // Memory     A call allocates what it needs and frees it, or leaves it to a Context: at most 12 bytes a sample, 32 MiB
-//            and 1 MiB a thread, however many triangles there are; on the reference path up to 8 bytes a sample. When
+//            and 1 MiB a thread, however many triangles there are; on the reference path up to 12 bytes a sample and layer. When
 //            that cannot be had, the status is out_of_memory.
 #ifndef SUREFILL_SUREFILL_HPP
 #define SUREFILL_SUREFILL_HPP
@@ -305,7 +305,9 @@ struct Statistics {
 
 // Who draws. Both paths give the same image.
 enum class Path : std::uint8_t {
-  automatic,  // the fast path; the reference path only for 2^32 - 1 triangles and more in all draws together
+  automatic,  // the fast path; the reference path for 2^32 - 1 triangles and more in all draws together, and where an
+              // origin, own sample locations, layers, winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlap,
+              // touched or the index of conservative draws is asked for
   reference,  // the scalar reference path, on one thread
 };
 

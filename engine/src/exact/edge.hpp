@@ -51,11 +51,11 @@ struct EdgeFunction {
 
   // E at p in double, and a bound of its absolute error.
   double value(SamplePosition p, double* error_bound) const {
-    *error_bound = kEdgeErrorBound * ((std::fabs(a) * p.x + std::fabs(b) * p.y) + std::fabs(c));
+    *error_bound = kEdgeErrorBound * ((std::fabs(a * p.x) + std::fabs(b * p.y)) + std::fabs(c));
     return (a * p.x + b * p.y) + c;
   }
 
-  // E at p, exactly. Four products of 48 bits times 18 bits, and two of 48 bits.
+  // E at p, exactly. Four products of 48 bits times 27 bits, and two of 48 bits.
   Expansion<10> exact_value(SamplePosition p) const {
     const double jx = from.x, jy = from.y, jw = from.w, kx = to.x, ky = to.y, kw = to.w;
     Expansion<10> sum;

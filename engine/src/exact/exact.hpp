@@ -5,8 +5,8 @@
 // Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997.
 //
 // Holds in round-to-nearest with subnormals and without contraction to FMA (B4; the build sets -ffp-contract=off).
-// Range: all numbers here are sums of products of at most five float32 values or float32 midpoints and two sample
-// coordinates: between 2^-760 and 2^700, so nothing overflows, and no error term underflows.
+// Range: all numbers here are sums of products of at most six float32 values or float32 midpoints and three sample
+// coordinates: multiples of 2^-910 below 2^850, so nothing overflows, and no error term underflows.
 #ifndef SUREFILL_SRC_EXACT_HPP
 #define SUREFILL_SRC_EXACT_HPP
 
@@ -45,6 +45,14 @@ inline DoublePair two_product(double a, double b) {
 template <std::size_t kCapacity>
 class Expansion {
  public:
+  Expansion() = default;
+  // The same number with room for more terms.
+  template <std::size_t kOther>
+  explicit Expansion(const Expansion<kOther>& other) : size_(other.size()) {
+    static_assert(kOther <= kCapacity);
+    for (int i = 0; i < size_; ++i) term_[i] = other.term(i);
+  }
+
   // Adds one double. At most one term more.
   void add(double b) {
     int kept = 0;
@@ -68,6 +76,17 @@ class Expansion {
   template <std::size_t kOther>
   void add_scaled(const Expansion<kOther>& other, double factor) {
     for (int i = 0; i < other.size(); ++i) add_product(other.term(i), factor);
+  }
+
+  // Adds a * b: at most twice as many terms more as the product of their numbers.
+  template <std::size_t kA, std::size_t kB>
+  void add_product_of(const Expansion<kA>& a, const Expansion<kB>& b) {
+    for (int i = 0; i < b.size(); ++i) add_scaled(a, b.term(i));
+  }
+
+  // Changes the sign.
+  void negate() {
+    for (int i = 0; i < size_; ++i) term_[i] = -term_[i];
   }
 
   int sign() const { return size_ == 0 ? 0 : term_[size_ - 1] > 0 ? 1 : -1; }

@@ -11,7 +11,7 @@ int orientation(const Draw& draw, std::uint32_t position, Rungs* rungs) {
 }
 
 bool is_degenerate(const Draw& draw, std::uint32_t position) {
-  if (!draw.grid) return true;
+  if (!draw.grid) return draw.conservative != Conservative::touched;  // M4b
   Triangle triangle;
   triangle.set_up(vertex_of(draw, position, 0), vertex_of(draw, position, 1), vertex_of(draw, position, 2));
   return hull_contains_eye(triangle);
@@ -22,7 +22,8 @@ bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
   draw_ = &draw, position_ = position;
   const Vertex &v0 = vertex_of(draw, position, 0), &v1 = vertex_of(draw, position, 1),
                &v2 = vertex_of(draw, position, 2);
-  covers_something_ = draw.grid ? snapped_.set_up(v0, v1, v2, *draw.grid, rungs) : triangle_.set_up(v0, v1, v2, rungs);
+  covers_something_ = draw.grid ? snapped_.set_up(v0, v1, v2, *draw.grid, rungs, origin_)
+                                : triangle_.set_up(v0, v1, v2, rungs) || draw.conservative == Conservative::touched;
   return covers_something_;
 }
 
@@ -34,13 +35,20 @@ PixelBox ExactDraw::box(const PixelBox& limits, double least_offset, double larg
 }
 
 bool ExactDraw::draws_square(int x, int y, Rungs* rungs) const {
+  if (triangle_.determinant() == 0) return degenerate_touches(triangle_, x, y);
   const PixelSquare square(triangle_, x, y, rungs);
-  return draw_->conservative == Conservative::over ? square.touched() : square.inside();
+  switch (draw_->conservative) {
+    case Conservative::inner:
+      return square.inside();
+    case Conservative::overlap:
+      return square.overlapped();
+    default:
+      return square.touched();
+  }
 }
 
 bool ExactDraw::depth(SamplePosition p, float* stored, Rungs* rungs) {
-  return draw_->grid ? snapped_.depth(p, draw_->depth_mode, stored, rungs)
-                     : triangle_.depth(p, draw_->depth_mode, stored, rungs);
+  return draw_->grid ? snapped_.depth(p, *draw_, stored, rungs) : triangle_.depth(p, *draw_, stored, rungs);
 }
 
 bool ExactDraw::has_values(SamplePosition p) const {
@@ -49,11 +57,11 @@ bool ExactDraw::has_values(SamplePosition p) const {
 
 SamplePosition ExactDraw::place_of_attributes(const Target& target, int x, int y, TieShift shift) const {
   const SamplePosition centre{x + 0.5, y + 0.5};
-  if (target.samples == 1) return centre;
+  if (target.samples == 1) return place_of_sample(target, x, y, 0);
   if (target.attribute_location == AttributeLocation::centre && has_values(centre)) return centre;
   if (covers(centre, shift)) return centre;
   for (int n = 0; n < target.samples; ++n) {
-    const SamplePosition offset = sample_offset(target.samples, n), p{x + offset.x, y + offset.y};
+    const SamplePosition p = place_of_sample(target, x, y, n);
     if (covers(p, shift)) return p;
   }
   return centre;  // not reached: the triangle is seen at a sample of this pixel

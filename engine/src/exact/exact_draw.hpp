@@ -17,13 +17,17 @@ namespace surefill {
 // The sign of D of a triangle (C1).
 int orientation(const Draw& draw, std::uint32_t position, Rungs* rungs = nullptr);
 
-// Does the triangle, whose D is 0, cover nothing? Under Grid it does not always (G1).
+// Does the triangle, whose D is 0, cover nothing? Under Grid it does not always (G1), and where it is asked for the
+// pixels that it touches (M4b).
 bool is_degenerate(const Draw& draw, std::uint32_t position);
 
 class ExactDraw {
  public:
-  // The triangle at a position in the draw, whose vertices are finite (B1). False if it covers nothing by C1 or, under
-  // Grid, by G1. Everything below is about it.
+  // Pixels and places are those of space; the origin is the target's (S6), which Grid alone looks at.
+  explicit ExactDraw(Origin origin = {}) : origin_(origin) {}
+
+  // The triangle at a position in the draw, whose vertices are finite (B1). False if it covers nothing by C1 (but for
+  // M4b) or, under Grid, by G1. Everything below is about it.
   bool use(const Draw& draw, std::uint32_t position, Rungs* rungs = nullptr);
 
   // The pixels of `limits` that it can cover. Sample offsets within a pixel lie in [least_offset, largest_offset].
@@ -36,7 +40,11 @@ class ExactDraw {
     const int side = facing(p, shift, rungs);
     return side != 0 && !culls(*draw_, side);
   }
-  bool draws_square(int x, int y, Rungs* rungs = nullptr) const;  // M4
+  bool draws_square(int x, int y, Rungs* rungs = nullptr) const;  // M4, M4a, M4b
+  // Does it face front there, where it draws (F1; under Grid G1)?
+  bool is_front(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const {
+    return faces_front(*draw_, facing(p, shift, rungs));
+  }
 
   // Depth as it is stored; false if depth clipping removes the fragment: I1, I5; under Grid G2.
   bool depth(SamplePosition p, float* stored, Rungs* rungs = nullptr);
@@ -56,6 +64,7 @@ class ExactDraw {
     return triangle_.covers(p, shift, rungs) ? triangle_.determinant() : 0;
   }
 
+  Origin origin_;
   const Draw* draw_ = nullptr;
   std::uint32_t position_ = 0;
   bool covers_something_ = false;

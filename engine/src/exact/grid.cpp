@@ -16,23 +16,30 @@ constexpr double outwards(int plane) {
   return plane % 2 == 0 ? 1 : -1;
 }
 
-// 39 and 24 bits, so that both sides are exact.
-bool inside_guard_band(const Vertex& v) {
-  const double x = v.x, y = v.y, limit = kGuardBand * static_cast<double>(v.w);
-  return std::fabs(x) <= limit && std::fabs(y) <= limit;
+// Where the band ends at a plane, counted outwards: a whole number of 23 bits.
+double limit_of(int plane, Origin origin) {
+  return kGuardBand + outwards(plane) * (bounds_x(plane) ? origin.x : origin.y);
 }
 
-// A plane's function at a vertex of the triangle.
-Expansion<2> plane_value(int plane, const Vertex& v) {
+// A plane's function at a vertex of the triangle: 47 and 24 bits.
+Expansion<2> plane_value(int plane, const Vertex& v, Origin origin) {
   Expansion<2> sum;
-  sum.add(kGuardBand * static_cast<double>(v.w));
+  sum.add(limit_of(plane, origin) * static_cast<double>(v.w));
   sum.add(-outwards(plane) * static_cast<double>(bounds_x(plane) ? v.x : v.y));
   return sum;
 }
 
-int plane_sign(int plane, const GuardCorner& corner) {
+bool inside_guard_band(const Vertex& v, Origin origin) {
+  for (int plane = 0; plane < kPlanes; ++plane) {
+    const double coordinate = bounds_x(plane) ? v.x : v.y;
+    if (!(outwards(plane) * coordinate <= limit_of(plane, origin) * static_cast<double>(v.w))) return false;
+  }
+  return true;
+}
+
+int plane_sign(int plane, const GuardCorner& corner, Origin origin) {
   Expansion<32> sum;
-  sum.add_scaled(corner.w, kGuardBand);
+  sum.add_scaled(corner.w, limit_of(plane, origin));
   sum.add_scaled(bounds_x(plane) ? corner.x : corner.y, -outwards(plane));
   return sum.sign();
 }
@@ -46,8 +53,8 @@ GuardCorner vertex_corner(const Vertex& v, int line) {
 
 // Where a plane cuts the edge from a to b, from these end points alone: |f(b)| a + |f(a)| b, which is the same real
 // point for either order. f(a) and f(b) have opposite signs.
-GuardCorner edge_corner(int plane, const Vertex& a, const Vertex& b) {
-  const Expansion<2> fa = plane_value(plane, a), fb = plane_value(plane, b);
+GuardCorner edge_corner(int plane, const Vertex& a, const Vertex& b, Origin origin) {
+  const Expansion<2> fa = plane_value(plane, a, origin), fb = plane_value(plane, b, origin);
   const auto mean = [&](double at_a, double at_b) {
     Expansion<8> sum;
     sum.add_scaled(fb, fb.sign() * at_a);
@@ -76,16 +83,17 @@ int sign_of_b_sum(const Triangle& triangle) {
 // eye lies on one side of every other guard plane.
 //
 // An X plane and a Y plane: both X planes have been applied by then, so W >= 0, and 0 only at the eye; the point is
-// (+-g, +-g, 1) times a positive number.
+// (ox +- g, oy +- g, 1) times a positive number.
 //
 // The two X planes: the point is (0, 1, 0) times l, where the weights l E_i / D of the vertices sum to 1, so l has the
 // sign of D times that of the sum of the E_i at (0, 1, 0). It lies outside of a Y plane, and so is gone in the end.
-GuardCorner band_corner(int first, int second, const Triangle& triangle) {
+GuardCorner band_corner(int first, int second, const Triangle& triangle, Origin origin) {
   GuardCorner corner;
   if (!bounds_x(second)) {
     corner.guard_x = outwards(first) > 0 ? 1 : -1;
     corner.guard_y = outwards(second) > 0 ? 1 : -1;
-    corner.x.add(kGuardBand * corner.guard_x), corner.y.add(kGuardBand * corner.guard_y), corner.w.add(1);
+    corner.x.add(origin.x + kGuardBand * corner.guard_x), corner.y.add(origin.y + kGuardBand * corner.guard_y);
+    corner.w.add(1);
   } else {
     corner.y.add(triangle.determinant() * sign_of_b_sum(triangle));
   }
@@ -93,15 +101,15 @@ GuardCorner band_corner(int first, int second, const Triangle& triangle) {
 }
 
 // Where a plane cuts the line that leads from `corner` to the next one.
-GuardCorner cut(const GuardCorner& corner, int plane, const Triangle& triangle) {
-  if (corner.line >= 3) return band_corner(corner.line - 3, plane, triangle);
-  return edge_corner(plane, triangle.edge(corner.line).from, triangle.edge(corner.line).to);
+GuardCorner cut(const GuardCorner& corner, int plane, const Triangle& triangle, Origin origin) {
+  if (corner.line >= 3) return band_corner(corner.line - 3, plane, triangle, origin);
+  return edge_corner(plane, triangle.edge(corner.line).from, triangle.edge(corner.line).to, origin);
 }
 
 // Sutherland and Hodgman 1974, against one plane. A corner on the plane stays and is not cut again.
-void clip(const GuardPolygon& in, int plane, const Triangle& triangle, GuardPolygon* out) {
+void clip(const GuardPolygon& in, int plane, const Triangle& triangle, Origin origin, GuardPolygon* out) {
   int sign[7];
-  for (int n = 0; n < in.corners; ++n) sign[n] = plane_sign(plane, in.corner[n]);
+  for (int n = 0; n < in.corners; ++n) sign[n] = plane_sign(plane, in.corner[n], origin);
   out->corners = 0;
   for (int n = 0; n < in.corners; ++n) {
     const GuardCorner& corner = in.corner[n];
@@ -111,26 +119,26 @@ void clip(const GuardPolygon& in, int plane, const Triangle& triangle, GuardPoly
       if (here == 0 && next < 0) kept.line = 3 + plane;
     }
     if (here * next < 0) {
-      GuardCorner& added = out->corner[out->corners++] = cut(corner, plane, triangle);
+      GuardCorner& added = out->corner[out->corners++] = cut(corner, plane, triangle, origin);
       added.line = here > 0 ? 3 + plane : corner.line;
     }
   }
 }
 
 // G1. The hull of the triangle does not contain the eye.
-void clip_to_guard_band(const Triangle& triangle, GuardPolygon* polygon) {
+void clip_to_guard_band(const Triangle& triangle, Origin origin, GuardPolygon* polygon) {
   polygon->corners = 0;
   bool inside = true;
   for (int i = 0; i < 3; ++i) {  // the line from vertex i to vertex i + 1 is the edge opposite vertex i + 2
     polygon->corner[polygon->corners++] = vertex_corner(triangle.vertex(i), (i + 2) % 3);
-    inside = inside && inside_guard_band(triangle.vertex(i));
+    inside = inside && inside_guard_band(triangle.vertex(i), origin);
   }
   if (inside) return;
   GuardPolygon other;
   static_assert(kPlanes % 2 == 0, "the last result stands in *polygon");
   for (int plane = 0; plane < kPlanes; plane += 2) {
-    clip(*polygon, plane, triangle, &other);
-    clip(other, plane + 1, triangle, polygon);
+    clip(*polygon, plane, triangle, origin, &other);
+    clip(other, plane + 1, triangle, origin, polygon);
   }
 }
 
@@ -149,10 +157,10 @@ double round_to_integer(double floor_of_t, int above_floor, int above_half, Grid
   return floor_of_t;
 }
 
-// The grid position of a coordinate numerator / denominator, which lies in [-g, g], in units of 2^-(bits + 4) pixels;
-// `offset` is in these units.
+// The grid position of a coordinate numerator / denominator, which lies within g of the origin, in units of 2^-(bits + 4)
+// pixels from there; `offset` is in these units.
 std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator, int offset, const Grid& grid,
-                  Rungs* rungs) {
+                  Rungs* rungs, int origin = 0) {
   const double scale = 1 << grid.bits;
   const auto compare = [&](double twice) {  // the sign of t - twice / 2; all factors are exact
     Expansion<32> rest;
@@ -160,8 +168,8 @@ std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator
     rest.add_scaled(denominator, -(twice + offset / 8.0));
     return rest.sign();
   };
-  // |t| < 2^27, and the estimates, the division and the difference have relative errors below 2^-48 together.
-  const double error = snap_error();
+  // The estimates, the division and the difference have relative errors below 2^-48 together.
+  const double error = snap_error(origin != 0);
   const double estimate = numerator.estimate() / denominator.estimate() * scale - offset / 16.0;
   double floor_of_t = std::floor(estimate);
   const double fraction = estimate - floor_of_t;  // exact
@@ -179,7 +187,7 @@ std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator
     above_half = compare(2 * floor_of_t + 1);
   }
   const double k = round_to_integer(floor_of_t, above_floor, above_half, grid.rounding);
-  return 16 * static_cast<std::int64_t>(k) + offset;
+  return 16 * (static_cast<std::int64_t>(k) - std::int64_t{origin} * (1 << grid.bits)) + offset;
 }
 
 // Widens a range by z / w; an empty range has low > high. Rounding is monotonic, so the rounded ends are those of the
@@ -197,6 +205,16 @@ void widen(const Expansion<kZ>& z, const Expansion<kW>& w, DepthRange* range) {
   range->high_below_zero = range->high_below_zero && below_zero;
   range->low_above_one = range->low_above_one && is_above_one;
   range->high_above_one = range->high_above_one || is_above_one;
+}
+
+// The sign of a - b.
+int compare(const DepthFraction& a, const DepthFraction& b) {
+  Expansion<1440> left;
+  Expansion<2880> difference;
+  left.add_product_of(b.numerator, a.denominator);
+  difference.add_product_of(a.numerator, b.denominator);
+  for (int i = 0; i < left.size(); ++i) difference.add(-left.term(i));
+  return difference.sign() * a.denominator.sign() * b.denominator.sign();
 }
 
 }  // namespace
@@ -225,14 +243,16 @@ double snapped_position(float c, float w, int offset, const Grid& grid, Rungs* r
   return static_cast<double>(snap(numerator, denominator, offset, grid, rungs)) / (16 << grid.bits);
 }
 
-bool SnappedTriangle::set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs) {
+bool SnappedTriangle::set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs,
+                             Origin origin) {
   depth_range_known_ = false;
+  origin_ = origin;
   if (!triangle_.set_up(v0, v1, v2, rungs) && hull_contains_eye(triangle_)) return false;
-  clip_to_guard_band(triangle_, &polygon_);
+  clip_to_guard_band(triangle_, origin, &polygon_);
   for (int n = 0; n < polygon_.corners; ++n) {
     const GuardCorner& corner = polygon_.corner[n];
-    point_[n] = {snap(corner.x, corner.w, grid.offset_x, grid, rungs),
-                 snap(corner.y, corner.w, grid.offset_y, grid, rungs)};
+    point_[n] = {snap(corner.x, corner.w, grid.offset_x, grid, rungs, origin.x),
+                 snap(corner.y, corner.w, grid.offset_y, grid, rungs, origin.y)};
   }
   units_per_pixel_ = 1 << (grid.bits + 4);
   return true;
@@ -246,16 +266,17 @@ PixelBox SnappedTriangle::box(PixelBox limits, double least_offset, double large
     high = {std::max(high.x, point_[n].x), std::max(high.y, point_[n].y)};
   }
   const auto pixels = [this](std::int64_t units) { return static_cast<double>(units) / units_per_pixel_; };  // exact
-  clip_to_reach({pixels(low.x), pixels(high.x)}, least_offset, largest_offset, &limits.x0, &limits.x1);
-  clip_to_reach({pixels(low.y), pixels(high.y)}, least_offset, largest_offset, &limits.y0, &limits.y1);
+  const double ox = origin_.x, oy = origin_.y;
+  clip_to_reach({pixels(low.x) + ox, pixels(high.x) + ox}, least_offset, largest_offset, &limits.x0, &limits.x1);
+  clip_to_reach({pixels(low.y) + oy, pixels(high.y) + oy}, least_offset, largest_offset, &limits.y0, &limits.y1);
   return limits;
 }
 
 // Edges that cross the ray from the perturbed sample towards +x, with their direction. Differences of coordinates are
 // below 2^31 + 2^18 in magnitude and their products below 2^63; these are compared and not subtracted.
 int SnappedTriangle::winding(const Point* corner, int corners, SamplePosition p, TieShift shift) const {
-  const auto px = static_cast<std::int64_t>(p.x * units_per_pixel_);
-  const auto py = static_cast<std::int64_t>(p.y * units_per_pixel_);
+  const auto px = static_cast<std::int64_t>((p.x - origin_.x) * units_per_pixel_);
+  const auto py = static_cast<std::int64_t>((p.y - origin_.y) * units_per_pixel_);
   const auto beyond = [&](const Point& a) { return a.y > py || (a.y == py && shift.y < 0); };  // y above the sample's
   int sum = 0;
   for (int n = 0; n < corners; ++n) {
@@ -270,7 +291,8 @@ int SnappedTriangle::winding(const Point* corner, int corners, SamplePosition p,
   return sum;
 }
 
-bool SnappedTriangle::depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs) {
+bool SnappedTriangle::depth(SamplePosition p, const DrawState& state, float* stored, Rungs* rungs) {
+  const DepthMode mode = state.depth_mode;
   know_depth_range();
   const DepthRange& range = depth_range_;
   const bool flat = triangle_.determinant() == 0;
@@ -281,8 +303,11 @@ bool SnappedTriangle::depth(SamplePosition p, DepthMode mode, float* stored, Run
     if (!flat && range.low_below_zero && triangle_.compare_depth(p, 0, rungs) < 0) return false;
     if (!flat && range.high_above_one && triangle_.compare_depth(p, 1, rungs) > 0) return false;
   }
-  *stored = range.low;
-  if (!flat) *stored = std::clamp(triangle_.rounded_depth(p, rungs), range.low, range.high);
+  if (state.depth_bias) {
+    *stored = biased_depth(p, *state.depth_bias, rungs);
+  } else {
+    *stored = flat ? range.low : std::clamp(triangle_.rounded_depth(p, rungs), range.low, range.high);
+  }
   if (mode == DepthMode::clamp) *stored = std::clamp(*stored, 0.0f, 1.0f);  // rounding is monotonic
   return true;
 }
@@ -293,14 +318,52 @@ void SnappedTriangle::know_depth_range() {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   depth_range_ = {kInfinity, -kInfinity, false, true, true, false};
   for (int n = 0; n < polygon_.corners; ++n) {
-    const GuardCorner& corner = polygon_.corner[n];
-    if (corner.guard_x != 0) {
-      const SamplePosition p{kGuardBand * corner.guard_x, kGuardBand * corner.guard_y};
-      widen(triangle_.exact_depth_numerator(p), triangle_.exact_determinant_value(), &depth_range_);
-    } else {
-      widen(corner.z, corner.w, &depth_range_);
-    }
+    const DepthFraction z = corner_depth(n);
+    widen(z.numerator, z.denominator, &depth_range_);
   }
+}
+
+// Z/W of corner n of the polygon.
+DepthFraction SnappedTriangle::corner_depth(int n) {
+  const GuardCorner& corner = polygon_.corner[n];
+  if (corner.guard_x == 0) return {Expansion<60>(corner.z), Expansion<12>(corner.w)};
+  const SamplePosition p{origin_.x + kGuardBand * corner.guard_x, origin_.y + kGuardBand * corner.guard_y};
+  return {triangle_.exact_depth_numerator(p), triangle_.exact_determinant_value()};
+}
+
+// Depth with a bias (I8): the clamped z of G2, without rounding, and then c and s m, whose m is that of the unsnapped
+// plane, and 0 where D is.
+float SnappedTriangle::biased_depth(SamplePosition p, const DepthBias& bias, Rungs* rungs) {
+  const bool flat = triangle_.determinant() == 0;
+  DepthFraction low = corner_depth(0), high = low;
+  for (int n = 1; n < polygon_.corners; ++n) {
+    const DepthFraction z = corner_depth(n);
+    if (compare(z, low) < 0) low = z;
+    if (compare(z, high) > 0) high = z;
+  }
+  DepthFraction z = low;
+  if (!flat) {
+    z = {triangle_.exact_depth_numerator(p), triangle_.exact_determinant_value()};
+    const int below = compare(z, low), above = compare(z, high);
+    if (below >= 0 && above <= 0) return triangle_.biased_depth(p, bias, rungs);
+    z = below < 0 ? low : high;
+  }
+  count(rungs, &Rungs::values_by_expansion);
+  if (flat) {
+    Expansion<84> numerator(z.numerator);
+    numerator.add_scaled(z.denominator, bias.constant);
+    return round_quotient(numerator, z.denominator);
+  }
+  // (z D + c w D + s m D w) / (w D), for z / w the fraction.
+  const Expansion<12>& d = triangle_.exact_determinant_value();
+  Expansion<288> denominator, slope;
+  denominator.add_product_of(z.denominator, d);
+  slope.add_product_of(z.denominator, triangle_.exact_slope_numerator());
+  Expansion<1440 + 2 * 288 + 2 * 288> numerator;
+  numerator.add_product_of(z.numerator, d);
+  numerator.add_scaled(denominator, bias.constant);
+  numerator.add_scaled(slope, bias.slope);
+  return round_quotient(numerator, denominator);
 }
 
 }  // namespace surefill

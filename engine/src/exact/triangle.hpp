@@ -5,6 +5,7 @@
 #ifndef SUREFILL_SRC_TRIANGLE_HPP
 #define SUREFILL_SRC_TRIANGLE_HPP
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -64,8 +65,9 @@ class Triangle {
     return true;
   }
 
-  // Depth at p as I4 stores it; false if depth clipping removes the fragment (I5).
-  bool depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs = nullptr) {
+  // Depth at p, with the bias of I8, as I4 stores it; false if depth clipping removes the fragment (I5).
+  bool depth(SamplePosition p, const DrawState& state, float* stored, Rungs* rungs = nullptr) {
+    const DepthMode mode = state.depth_mode;
     const Approximation q = approximate_depth(p);
     if (mode == DepthMode::clip) {
       const double low = q.value - q.error, high = q.value + q.error;
@@ -75,7 +77,7 @@ class Triangle {
       }
       if (!(low > 0 && high < 1) && !inside_unit_range(exact_depth_numerator(p), rungs)) return false;
     }
-    *stored = rounded_depth(p, q, rungs);
+    *stored = state.depth_bias ? biased_depth(p, *state.depth_bias, rungs) : rounded_depth(p, q, rungs);
     if (mode == DepthMode::clamp) *stored = *stored < 0 ? 0.0f : *stored > 1 ? 1.0f : *stored;  // rounding is monotonic
     return true;
   }
@@ -83,6 +85,51 @@ class Triangle {
   // The depth at p (I1), whether or not the triangle covers p, as I4 rounds it. D is not 0.
   float rounded_depth(SamplePosition p, Rungs* rungs = nullptr) {
     return rounded_depth(p, approximate_depth(p), rungs);
+  }
+
+  // The same with a bias (I8).
+  float biased_depth(SamplePosition p, const DepthBias& bias, Rungs* rungs = nullptr) {
+    const auto exact = [&] {
+      Expansion<108> numerator(exact_depth_numerator(p));
+      numerator.add_scaled(exact_determinant_value(), bias.constant);
+      numerator.add_scaled(exact_slope_numerator(), bias.slope);
+      return round_quotient(numerator, exact_determinant_value());
+    };
+    return rounded(with_bias(approximate_depth(p), bias), exact, rungs);
+  }
+
+  // z + c + s m (I8) for an approximation of z. D is not 0. The factor covers the rounding of sums and bounds.
+  Approximation with_bias(Approximation z, const DepthBias& bias) {
+    const Approximation m = approximate_slope();
+    const double c = bias.constant, s = bias.slope, term = s * m.value;
+    const double magnitude = (std::fabs(z.value) + std::fabs(c)) + std::fabs(term);
+    return {(z.value + c) + term, (z.error + std::fabs(s) * m.error) * (1 + 0x1p-20) + 0x1p-50 * magnitude};
+  }
+
+  // I8's m times D, exactly: D is not 0.
+  Expansion<12> exact_slope_numerator() const {
+    Expansion<12> along_x, along_y;
+    for (int i = 0; i < 3; ++i) {
+      const double z = vertex_[i].z;
+      const Vertex &j = edge_[i].from, &k = edge_[i].to;
+      along_x.add_product(static_cast<double>(j.y) * k.w, z);
+      along_x.add_product(-(static_cast<double>(j.w) * k.y), z);
+      along_y.add_product(static_cast<double>(j.w) * k.x, z);
+      along_y.add_product(-(static_cast<double>(j.x) * k.w), z);
+    }
+    for (Expansion<12>* slope : {&along_x, &along_y}) {
+      if (slope->sign() * determinant_sign_ < 0) slope->negate();
+    }
+    Expansion<24> difference(along_x);
+    difference.add_scaled(along_y, -1);
+    return difference.sign() * determinant_sign_ > 0 ? along_x : along_y;
+  }
+
+  // z(p) (I1), and a bound of its error. D is not 0.
+  Approximation approximate_depth(SamplePosition p) {
+    Approximation e[3];
+    evaluate_edges(p, e);
+    return quotient(weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, e), approximate_determinant());
   }
 
   // The sign of z(p) - bound, exactly, for a bound of 0 or 1. D is not 0.
@@ -203,10 +250,17 @@ class Triangle {
     return {determinant_estimate_, std::fabs(determinant_estimate_) * 0x1p-50};
   }
 
-  Approximation approximate_depth(SamplePosition p) {
-    Approximation e[3];
-    evaluate_edges(p, e);
-    return quotient(weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, e), approximate_determinant());
+  // I8's m: the larger one of two is as near to the truth as they are.
+  Approximation approximate_slope() {
+    Approximation a[3], b[3];
+    for (int i = 0; i < 3; ++i) {  // rounded once
+      a[i] = {edge_[i].a, std::fabs(edge_[i].a) * 0x1p-52};
+      b[i] = {edge_[i].b, std::fabs(edge_[i].b) * 0x1p-52};
+    }
+    const double z[3] = {vertex_[0].z, vertex_[1].z, vertex_[2].z};
+    const Approximation x = quotient(weighted_sum(z, a), approximate_determinant());
+    const Approximation y = quotient(weighted_sum(z, b), approximate_determinant());
+    return {std::max(std::fabs(x.value), std::fabs(y.value)), std::max(x.error, y.error)};
   }
 
   float rounded_depth(SamplePosition p, Approximation q, Rungs* rungs = nullptr) {

@@ -64,7 +64,7 @@ class Frame {
     if (!allocate()) return Status::out_of_memory;
     for (int n = 0; n < target_.samples; ++n) {
       frame_.sample_number = static_cast<std::size_t>(n);
-      sample_ = sample_offset(target_.samples, n);
+      sample_ = sample_offset(target_, n);
       for (std::size_t draw = 0; draw < draws_.size(); ++draw) jobs_[draw] = job_of(draw);
       frame_.draws = {jobs_.get(), draws_.size()};
       if (!render_sample()) return Status::out_of_memory;
@@ -264,11 +264,19 @@ class Frame {
 
 }  // namespace
 
-bool supports(std::span<const Draw> draws) {
+bool supports(const Target& target, std::span<const Draw> draws) {
+  if (target.origin != Origin{} || !target.sample_locations.empty() || target.layers != 1 || !target.winding.empty() ||
+      takes_equal(target.depth_test)) {
+    return false;
+  }
   std::uint64_t triangles = 0;
   for (const Draw& draw : draws) {
     triangles += triangles_of(draw);
-    if (triangles >= kNoTriangle) return false;
+    const bool squares = draw.conservative != Conservative::none;
+    if (triangles >= kNoTriangle || draw.depth_bias || !draw.covered.empty() || !draw.visible.empty() ||
+        draw.conservative > Conservative::inner || (squares && !target.index.empty())) {
+      return false;
+    }
   }
   return true;
 }

@@ -12,7 +12,7 @@
 namespace surefill::fast {
 
 // Does the fast path draw frames like this one? If not, the reference path has to.
-bool supports(std::span<const Draw> draws);
+bool supports(const Target& target, std::span<const Draw> draws);
 
 // As reference::render. Working memory: 4 bytes a pixel for depth, 4 for visibility, 4 for counts, as far as they are
 // asked for, with the target's sides rounded up to multiples of 64; 16 MiB for the triangles of a chunk and their

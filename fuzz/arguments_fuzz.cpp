@@ -206,17 +206,20 @@ class Arguments {
       fail("sample_total is not width * height * samples, or not 0 where they are refused");
     }
 
+    const std::size_t layered = total * build_places(large);
     target_.count = output<std::uint32_t>(total, Status::target_count);
+    if (!large && one_in(8)) target_.winding = output<std::int32_t>(total, Status::target_winding);
     if (!large && !one_in(4)) {
-      target_.index = output<std::uint32_t>(total, Status::target_index);
-      target_.depth = output<float>(total, Status::target_depth);
-      target_.barycentrics = output<float>(3 * total, Status::target_barycentrics);
-      build_attribute_targets(total);
+      target_.index = output<std::uint32_t>(layered, Status::target_index);
+      target_.depth = output<float>(layered, Status::target_depth);
+      target_.barycentrics = output<float>(3 * layered, Status::target_barycentrics);
+      build_attribute_targets(layered);
     }
     if (one_in(4)) {
       if (one_in(2)) {
         target_.initial_depth = target_.depth;
         note(!target_.depth.empty() && target_.depth.size() != total, Status::target_initial_depth);
+        note(!target_.depth.empty() && target_.layers != 1, Status::target_overlap);
       } else {
         Spoiled how;
         target_.initial_depth = buffer<float>(total, false, &how);
@@ -225,9 +228,33 @@ class Arguments {
              Status::target_initial_depth);
       }
     }
-    target_.depth_test = enumerator(DepthTest::greater, Status::target_depth_test);
+    target_.depth_test = enumerator(DepthTest::greater_equal, Status::target_depth_test);
     target_.attribute_location = enumerator(AttributeLocation::centroid, Status::target_attribute_location);
     with_statistics_ = one_in(2);
+  }
+
+  // Layers, origin and sample places (V4, S6, S7). Gives the number of layers that buffers are made for.
+  std::size_t build_places(bool large) {
+    if (one_in(8)) target_.layers = one_in(8) ? wild_int() : 1 + static_cast<int>(in_.below(3));
+    const bool layers_ok = target_.layers >= 1 && target_.layers <= kMaxLayers;
+    note(!layers_ok, Status::target_layers);
+    if (large) target_.layers = 1;
+    if (one_in(8)) target_.origin = {one_in(2) ? wild_int() : 3, one_in(2) ? wild_int() : -4194304};
+    const auto near = [](int place) { return place >= -kMaxOrigin && place <= kMaxOrigin; };
+    note(!near(target_.origin.x) || !near(target_.origin.y), Status::target_origin);
+    if (one_in(8)) {
+      const std::size_t count = target_.samples >= 1 && target_.samples <= 16
+                                    ? static_cast<std::size_t>(target_.samples) + (one_in(8) ? 1 : 0)
+                                    : 1;
+      for (std::size_t n = 0; n < count; ++n) {
+        locations_.push_back(
+            {one_in(32) ? wild_int() : static_cast<int>(in_.below(16)), static_cast<int>(in_.below(16))});
+        note(locations_.back().x < 0 || locations_.back().x > 15, Status::target_sample_locations);
+      }
+      target_.sample_locations = locations_;
+      note(count != static_cast<std::size_t>(target_.samples), Status::target_sample_locations);
+    }
+    return layers_ok ? static_cast<std::size_t>(target_.layers) : 1;
   }
 
   void build_attribute_targets(std::size_t total) {
@@ -307,9 +334,18 @@ class Arguments {
            Status::draw_grid);
       note(draw.fill_rule > FillRule::northwards_west, Status::draw_fill_rule);  // C5
     }
-    if (one_in(16)) draw.conservative = enumerator(Conservative::inner, Status::draw_conservative);
+    if (one_in(8)) draw.depth_bias = DepthBias{in_.real(), in_.real()};
+    note(draw.depth_bias && !(std::isfinite(draw.depth_bias->constant) && std::isfinite(draw.depth_bias->slope)),
+         Status::draw_depth_bias);
+    note(target_.layers > 1 && !draw.depth_write, Status::target_layers);
+    if (one_in(8)) draw.covered = numbers(draw, Status::draw_covered);
+    if (one_in(8)) draw.visible = numbers(draw, Status::draw_visible);
+    if (one_in(16)) draw.conservative = enumerator(Conservative::touched, Status::draw_conservative);
     if (draw.conservative != Conservative::none) {
-      bool more = !target_.index.empty() || !target_.depth.empty() || !target_.barycentrics.empty();
+      any_conservative_ = true;
+      note(target_.layers > 1, Status::target_layers);
+      note(!target_.sample_locations.empty(), Status::target_sample_locations);
+      bool more = !target_.winding.empty() || !target_.depth.empty() || !target_.barycentrics.empty();
       for (const AttributeTarget& attribute : attribute_targets_) more = more || !attribute.values.empty();
       note(more || target_.samples != 1 || draw.depth_mode != DepthMode::none || draw.grid.has_value(),
            Status::draw_conservative);
@@ -317,6 +353,12 @@ class Arguments {
     if (one_in(8)) {
       for (Vertex& corner : draw.culling_box.emplace()) corner = {in_.real(), in_.real(), in_.real(), in_.real()};
     }
+  }
+
+  // One number a triangle (M10).
+  std::span<std::uint64_t> numbers(const Draw& draw, Status status) {
+    const std::size_t triangles = draw.indices.size() / 3;
+    return triangles < 16 ? output<std::uint64_t>(triangles, status) : std::span<std::uint64_t>();
   }
 
   std::span<const Vertex> vertices(std::size_t count) {
@@ -378,12 +420,16 @@ class Arguments {
     add(target_.index, true);
     add(target_.depth, true);
     add(target_.barycentrics, true);
+    add(target_.winding, true);
+    add(target_.sample_locations, false);
     for (const AttributeTarget& attribute : attribute_targets_) add(attribute.values, true);
     if (target_.initial_depth.data() != target_.depth.data()) add(target_.initial_depth, false);
     for (const Draw& draw : own_draws_) {
       add(draw.vertices, false);
       add(draw.indices, false);
       add(draw.identifiers, false);
+      add(draw.covered, true);
+      add(draw.visible, true);
       for (const AttributeArray& attribute : draw.attributes) add(attribute.values, false);
     }
     for (std::size_t i = 0; i < ranges.size(); ++i) {
@@ -396,6 +442,7 @@ class Arguments {
   }
 
   void note_numbers() {
+    for (const Draw& draw : own_draws_) note(any_conservative_ && !draw.visible.empty(), Status::draw_visible);
     for (const Draw& draw : own_draws_) {
       if (draw.indices.data() == nullptr || draw.indices.size() >= kTooMany) continue;
       for (const std::uint32_t index : draw.indices)
@@ -415,7 +462,8 @@ class Arguments {
   std::span<const Draw> draws_;
   std::vector<Allocation> allocations_;
   std::vector<Status> wrong_;  // what the arguments at fault are called
-  bool with_statistics_ = false;
+  std::vector<SampleLocation> locations_;
+  bool with_statistics_ = false, any_conservative_ = false;
 };
 
 // The viewport map: one array cut into input and output, which may overlap, differ in size or be null.

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "fuzz/c_api_memory.hpp"
 #include "fuzz/decode.hpp"
 #include "fuzz/finding.hpp"
 #include "surefill/diagnostics.hpp"
@@ -28,38 +29,9 @@
 namespace surefill::fuzz {
 namespace {
 
-constexpr std::size_t kSizeMax = std::numeric_limits<std::size_t>::max();
-// Bytes up to and with the last member that the first version had: no struct is shorter.
-constexpr std::size_t kLeastTarget = offsetof(surefill_target, attribute_location) + sizeof(std::uint32_t);
-constexpr std::size_t kLeastDraw = offsetof(surefill_draw, culling_box) + sizeof(void*);
-constexpr std::size_t kLeastOptions = offsetof(surefill_options, path) + sizeof(std::uint32_t);
-constexpr std::size_t kLeastStatistics = offsetof(surefill_statistics, path) + sizeof(void*);
-
-[[noreturn]] void fail(const std::string& relation) {
-  report_finding("c_api", relation);
-}
-
-std::string text(surefill_status status) {
-  return std::string("\"") + surefill_status_text(status) + "\"";
-}
-
-// What the C interface makes of an enumerator: one that does not fit in a byte is as wrong as 255.
-template <typename Enum>
-Enum to_enum(std::uint32_t value) {
-  return static_cast<Enum>(value > 255 ? 255 : value);
-}
-
-// Memory of exactly the size that the call is told, so that the address sanitizer sees the first byte past it.
-struct Memory {
-  std::unique_ptr<std::byte[]> bytes, twin;
-  std::size_t size = 0;
-  bool output = false;
-  std::vector<std::byte> before;
-};
-
-class Call {
+class Call : CallMemory {
  public:
-  explicit Call(std::span<const std::uint8_t> bytes) : in_(bytes) {
+  explicit Call(std::span<const std::uint8_t> bytes) : CallMemory(bytes) {
     build_target();
     build_draws();
     build_options();
@@ -89,6 +61,45 @@ class Call {
                                 : render(cpp_target_, cpp_draws_, &expected_statistics, cpp_options_);
     expect("surefill_render", drawn, expected, wrong);
     if (drawn == SUREFILL_OK) check_image(expected_statistics, expected_diagnostics.path);
+  }
+
+  // The same stream of coverage in C and in C++; mostly of a target that asks for no output.
+  void check_stream() {
+    surefill_target t = known_target_;
+    Target cpp = cpp_target_;
+    if (!one_in(8)) {
+      t.count = t.index = nullptr, t.depth = t.barycentrics = nullptr, t.attributes = nullptr, t.winding = nullptr;
+      t.count_count = t.index_count = t.depth_count = t.barycentrics_count = t.attribute_count = t.winding_count = 0;
+      cpp.count = cpp.index = {}, cpp.depth = cpp.barycentrics = {}, cpp.attributes = {}, cpp.winding = {};
+    }
+    const bool no_visitor = one_in(32);
+    std::vector<CoverageBlock> blocks, cpp_blocks;
+    const surefill_visitor keep = [](void* context, const surefill_block* list, std::size_t count) {
+      const auto* first = reinterpret_cast<const CoverageBlock*>(list);
+      static_cast<std::vector<CoverageBlock>*>(context)->insert(
+          static_cast<std::vector<CoverageBlock>*>(context)->end(), first, first + count);
+    };
+    CoverageVisitor visitor{[](void* context, std::span<const CoverageBlock> list) {
+                              auto& to = *static_cast<std::vector<CoverageBlock>*>(context);
+                              to.insert(to.end(), list.begin(), list.end());
+                            },
+                            &cpp_blocks};
+    if (no_visitor) visitor.visit = nullptr;
+    const surefill_status status = surefill_visit_coverage(target_ == nullptr ? nullptr : &t, draws_, draw_count_,
+                                                           no_visitor ? nullptr : keep, &blocks, nullptr, nullptr);
+    if (!wrong_.empty() || strided_overlap_) {
+      if (status == SUREFILL_OK) fail("surefill_visit_coverage accepts wrong arguments");
+      return;
+    }
+    const Status expected = visit_coverage(cpp, cpp_draws_, visitor);
+    if (status != static_cast<surefill_status>(expected)) fail("surefill_visit_coverage says " + text(status));
+    const auto same = [](const CoverageBlock& a, const CoverageBlock& b) {
+      return a.draw == b.draw && a.triangle == b.triangle && a.x == b.x && a.y == b.y && a.sample == b.sample &&
+             a.mask == b.mask;
+    };
+    if (!std::equal(blocks.begin(), blocks.end(), cpp_blocks.begin(), cpp_blocks.end(), same)) {
+      fail("the streams of C and of C++ differ");
+    }
   }
 
   // The same occluders in C and in C++, and a query.
@@ -134,94 +145,6 @@ class Call {
   }
 
  private:
-  bool one_in(std::uint32_t n) { return in_.below(n) == n - 1; }  // false when the bytes have run out
-
-  std::uint32_t enumerator(std::uint32_t count) {
-    constexpr std::uint32_t kWild[] = {255, 256, 0x80000000u, 0xFFFFFFFFu};
-    return one_in(64) ? kWild[in_.below(4)] : one_in(64) ? count : in_.below(count);
-  }
-
-  int size() {
-    constexpr int kWild[] = {0, -1, std::numeric_limits<int>::min(), std::numeric_limits<int>::max(), 16385};
-    return one_in(64) ? kWild[in_.below(5)] : 1 + static_cast<int>(in_.below(9));
-  }
-
-  float real() { return one_in(8) ? in_.real() : static_cast<float>(in_.byte()) / 16 - 2; }
-
-  // New memory of `size` bytes.
-  std::byte* allocate(std::size_t size, bool output) {
-    Memory& m = memory_.emplace_back();
-    m.size = size;
-    m.output = output;
-    m.bytes.reset(new std::byte[size]);
-    m.twin.reset(new std::byte[size]);
-    std::memset(m.bytes.get(), 0x3F, size);
-    return m.bytes.get();
-  }
-
-  // A struct, or what fits of it, in memory of its own.
-  template <typename Struct>
-  Struct* place(const Struct& value, std::size_t size) {
-    std::byte* at = allocate(size, false);
-    std::memcpy(at, &value, std::min(size, sizeof value));
-    return reinterpret_cast<Struct*>(at);
-  }
-
-  // A buffer of `bytes` bytes: mostly its own, sometimes a part of one that is there already, or null.
-  template <typename T>
-  T* buffer(std::size_t bytes, bool output, bool* fresh) {
-    *fresh = false;
-    if (one_in(64)) return nullptr;
-    if (!data_.empty() && one_in(32)) {
-      Memory& other = memory_[data_[in_.below(static_cast<std::uint32_t>(std::min<std::size_t>(data_.size(), 256)))]];
-      const std::size_t shift = 4 * in_.below(8);
-      if (shift <= other.size && other.size - shift >= bytes) {
-        other.output = other.output || output;
-        return reinterpret_cast<T*>(other.bytes.get() + shift);
-      }
-    }
-    *fresh = true;
-    data_.push_back(memory_.size());
-    return reinterpret_cast<T*>(allocate(bytes, output));
-  }
-
-  // The number of elements that the call is told of a buffer that should hold `count`; `there` are there.
-  std::size_t told(std::size_t count, std::size_t* there) {
-    *there = count;
-    if (!one_in(32)) return count;
-    switch (in_.below(4)) {
-      case 0:
-        return *there = 0;
-      case 1:
-        return *there = count == 0 ? 0 : count - 1;
-      case 2:
-        return *there = count + 1;
-      default:  // three times 2^32: wrong for every kind of buffer, before anything is read
-        return std::size_t{3} << 32;
-    }
-  }
-
-  template <typename T>
-  void output(std::size_t count, T** pointer, std::size_t* pointer_count) {
-    if (one_in(4)) return;
-    bool fresh;
-    std::size_t there;
-    *pointer_count = told(count, &there);
-    *pointer = buffer<T>(there * sizeof(T), true, &fresh);
-  }
-
-  // A struct size that is right, or wrong and then noted. What is placed in memory has allocated_size bytes.
-  std::size_t struct_size(std::size_t least, std::size_t whole, surefill_status status,
-                          std::vector<surefill_status>* wrong) {
-    const std::size_t sizes[] = {0, 7, 8, least - 1, least, whole - 1, whole + 1, whole + 8, kSizeMax, whole / 2, 1};
-    const std::size_t size = one_in(32) ? sizes[in_.below(std::size(sizes))] : one_in(8) ? least : whole;
-    if (size < least || size > whole) wrong->push_back(status);
-    return size;
-  }
-  static std::size_t allocated_size(std::size_t struct_size) {
-    return std::clamp(struct_size, sizeof(std::size_t), sizeof(surefill_draw) + 64);
-  }
-
   void build_target() {
     surefill_target& t = known_target_;
     t.struct_size = struct_size(kLeastTarget, sizeof t, SUREFILL_TARGET_STRUCT_SIZE, &wrong_);
@@ -233,11 +156,12 @@ class Call {
     sizes.width = t.width, sizes.height = t.height, sizes.samples = t.samples;
     if (total != sample_total(sizes)) fail("surefill_sample_total differs from sample_total");
     output(guess, &t.count, &t.count_count);
+    const std::size_t layered = guess * build_places(t, guess);
     if (!one_in(4)) {
-      output(guess, &t.index, &t.index_count);
-      output(guess, &t.depth, &t.depth_count);
-      output(3 * guess, &t.barycentrics, &t.barycentrics_count);
-      build_attribute_targets(guess);
+      output(layered, &t.index, &t.index_count);
+      output(layered, &t.depth, &t.depth_count);
+      output(3 * layered, &t.barycentrics, &t.barycentrics_count);
+      build_attribute_targets(layered);
     }
     if (one_in(4)) {
       bool fresh;
@@ -248,13 +172,32 @@ class Call {
         t.initial_depth = buffer<float>(there * sizeof(float), false, &fresh);
       }
     }
-    t.depth_test = enumerator(2);
+    t.depth_test = enumerator(4);
     t.attribute_location = enumerator(2);
     target_ = place(t, allocated_size(t.struct_size));
     if (one_in(64)) {
       target_ = nullptr;
       wrong_.push_back(SUREFILL_NULL_TARGET);
     }
+  }
+
+  // What the target has had since 0.2, where the caller's struct has it. Gives the layers that buffers are made for.
+  std::size_t build_places(surefill_target& t, std::size_t total) {
+    if (t.struct_size != sizeof t) return 1;
+    if (one_in(8)) t.layers = one_in(8) ? in_.word() : in_.below(4);
+    if (one_in(8)) t.origin_x = one_in(8) ? size() : 4194304, t.origin_y = static_cast<int>(in_.below(5)) - 2;
+    if (one_in(8)) {
+      std::size_t there;
+      bool fresh;
+      const bool few = t.samples >= 1 && t.samples <= 16;
+      t.sample_location_count = told(few ? static_cast<std::size_t>(t.samples) : 1, &there);
+      surefill_place* places = buffer<surefill_place>(there * sizeof(surefill_place), false, &fresh);
+      const auto coordinate = [this] { return one_in(64) ? size() - 2 : static_cast<int>(in_.below(16)); };
+      for (std::size_t n = 0; fresh && n < there; ++n) places[n] = {coordinate(), coordinate()};
+      t.sample_locations = places;
+    }
+    if (one_in(8)) output(total, &t.winding, &t.winding_count);
+    return std::clamp<std::size_t>(t.layers, 1, kMaxLayers);
   }
 
   void build_attribute_targets(std::size_t total) {
@@ -332,7 +275,13 @@ class Call {
     d.front_face = enumerator(2);
     d.cull = enumerator(3);
     d.depth_mode = enumerator(3);
-    d.conservative = one_in(16) ? enumerator(3) : 0;
+    d.conservative = one_in(16) ? enumerator(5) : 0;
+    if (known == sizeof d) {
+      if (one_in(8)) d.depth_bias = place(surefill_depth_bias{real(), real()}, sizeof(surefill_depth_bias));
+      const std::size_t triangles = std::min<std::size_t>(d.index_count / 3, 16);
+      if (one_in(8)) output(triangles, &d.covered, &d.covered_count);
+      if (one_in(8)) output(triangles, &d.visible, &d.visible_count);
+    }
     d.depth_write_off = one_in(4) ? in_.word() : 0;
     const auto edge = [this] { return one_in(4) ? static_cast<int>(in_.word()) : static_cast<int>(in_.below(8)); };
     if (one_in(4)) d.scissor = place(surefill_scissor{edge(), edge(), edge(), edge()}, sizeof(surefill_scissor));
@@ -416,26 +365,6 @@ class Call {
     }
   }
 
-  // Where the twin of the byte at p lies.
-  template <typename T>
-  T* twin(T* p) const {
-    if (p == nullptr) return nullptr;
-    const auto at = reinterpret_cast<std::uintptr_t>(p);
-    for (const Memory& m : memory_) {
-      const auto begin = reinterpret_cast<std::uintptr_t>(m.bytes.get());
-      if (at >= begin && at < begin + std::max<std::size_t>(m.size, 1)) {
-        return reinterpret_cast<T*>(m.twin.get() + (at - begin));
-      }
-    }
-    // One past the end of some memory, of which 0 bytes are meant.
-    for (const Memory& m : memory_) {
-      if (at == reinterpret_cast<std::uintptr_t>(m.bytes.get() + m.size)) {
-        return reinterpret_cast<T*>(m.twin.get() + m.size);
-      }
-    }
-    fail("a pointer without a twin");
-  }
-
   // The call in C++, on the twins.
   void translate() {
     const surefill_target& t = known_target_;
@@ -447,6 +376,11 @@ class Call {
     cpp_target_.initial_depth = {twin(t.initial_depth), t.initial_depth_count};
     cpp_target_.depth_test = to_enum<DepthTest>(t.depth_test);
     cpp_target_.attribute_location = to_enum<AttributeLocation>(t.attribute_location);
+    cpp_target_.layers = t.layers == 0 ? 1 : static_cast<int>(std::min<std::uint32_t>(t.layers, INT32_MAX));
+    cpp_target_.origin = {t.origin_x, t.origin_y};
+    cpp_target_.sample_locations = {reinterpret_cast<const SampleLocation*>(twin(t.sample_locations)),
+                                    t.sample_location_count};
+    cpp_target_.winding = {twin(t.winding), t.winding_count};
     for (std::size_t k = 0; t.attributes != nullptr && k < t.attribute_count; ++k) {
       cpp_attribute_targets_.push_back(
           {{twin(t.attributes[k].values), t.attributes[k].value_count}, t.attributes[k].components});
@@ -485,6 +419,9 @@ class Call {
     if (d.grid != nullptr) {
       to.grid = Grid{d.grid->bits, d.grid->offset_x, d.grid->offset_y, to_enum<GridRounding>(d.grid->rounding)};
     }
+    if (d.depth_bias != nullptr) to.depth_bias = DepthBias{d.depth_bias->constant, d.depth_bias->slope};
+    to.covered = {twin(d.covered), d.covered_count};
+    to.visible = {twin(d.visible), d.visible_count};
     std::vector<AttributeArray>& arrays = cpp_arrays_.emplace_back();
     for (std::size_t k = 0; d.attributes != nullptr && k < d.attribute_count; ++k) {
       const surefill_attribute_array& a = d.attributes[k];
@@ -508,6 +445,8 @@ class Call {
     add(t.index, t.index_count, 4);
     add(t.depth, t.depth_count, 4);
     add(t.barycentrics, t.barycentrics_count, 4);
+    add(t.winding, t.winding_count, 4);
+    for (const surefill_draw& d : known_draws_) add(d.covered, d.covered_count, 8), add(d.visible, d.visible_count, 8);
     for (std::size_t k = 0; t.attributes != nullptr && k < t.attribute_count; ++k) {
       add(t.attributes[k].values, t.attributes[k].value_count, 4);
     }
@@ -525,11 +464,6 @@ class Call {
     if (actual == SUREFILL_OK || (!named && actual != same)) {
       fail(says + (wrong.empty() ? ", but strided vertices overlap an output" : ", but wrong is " + text(wrong[0])));
     }
-  }
-
-  bool unchanged() const {
-    return std::all_of(memory_.begin(), memory_.end(),
-                       [](const Memory& m) { return std::equal(m.before.begin(), m.before.end(), m.bytes.get()); });
   }
 
   void check_image(const Statistics& expected, const std::string& path) {
@@ -588,7 +522,6 @@ class Call {
     }
   }
 
-  ByteReader in_;
   surefill_target known_target_{};
   std::vector<surefill_draw> known_draws_;
   std::vector<std::uint32_t> components_;  // of the target's attributes
@@ -598,8 +531,6 @@ class Call {
   const surefill_options* options_ = nullptr;
   surefill_statistics* statistics_ = nullptr;
   std::size_t statistics_memory_ = kSizeMax;  // its number
-  std::deque<Memory> memory_;
-  std::vector<std::size_t> data_;  // numbers of the memory that holds buffers and no structs
   // What is wrong of C alone: with the frame, with its draws, with options and statistics.
   std::vector<surefill_status> wrong_, wrong_draws_, wrong_size_of_draw_, wrong_options_;
   bool strided_overlap_ = false;
@@ -681,6 +612,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_small_calls(in);
   } else if (kind % 8 == 6) {
     Call(rest).check_occlusion();
+  } else if (kind % 8 == 5) {
+    Call(rest).check_stream();
   } else {
     Call(rest).check();
   }

@@ -29,6 +29,9 @@ struct Call {
   std::vector<float> barycentrics = std::vector<float>(3 * kPixels, 0.25f);
   std::vector<float> colour = std::vector<float>(2 * kPixels, 0.25f);
   std::vector<float> initial = std::vector<float>(kPixels, 1.0f);
+  std::vector<std::int32_t> winding = std::vector<std::int32_t>(kPixels, 5);
+  std::vector<std::uint64_t> numbers = std::vector<std::uint64_t>(4, 5);
+  std::vector<SampleLocation> places{{3, 4}, {5, 6}};
   std::vector<Vertex> vertices{{0, 0, 0.5f, 1}, {4, 0, 0.5f, 1}, {0, 4, 0.5f, 1}};
   std::vector<std::uint32_t> indices{0, 1, 2};
   std::vector<std::uint32_t> identifiers{7};
@@ -60,13 +63,19 @@ struct Call {
 
   Draw& draw() { return draws[0]; }
 
+  // Without the outputs that a frame with a conservative draw may not have.
+  void only_counts(Conservative mode) {
+    target.index = {}, target.depth = {}, target.barycentrics = {}, target.attributes = {};
+    draw().conservative = mode;
+  }
+
   // All bytes that a call could write to.
   std::string bytes() const {
     std::string all;
     const auto add = [&all](const auto& values) {
       all.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(values[0]));
     };
-    add(count), add(index), add(depth), add(barycentrics), add(colour), add(initial);
+    add(count), add(index), add(depth), add(barycentrics), add(colour), add(initial), add(winding), add(numbers);
     add(vertices), add(indices), add(identifiers), add(colours);
     return all;
   }
@@ -170,7 +179,60 @@ constexpr Fault kFaults[] = {
     {"count over the target", Status::target_overlap,
      [](Call& c) { c.target.count = over<std::uint32_t>(std::span(&c.target, 1), kPixels); }},
     {"unknown depth test", Status::target_depth_test,
-     [](Call& c) { c.target.depth_test = beyond(DepthTest::greater); }},
+     [](Call& c) { c.target.depth_test = beyond(DepthTest::greater_equal); }},
+    {"an origin too far to the right", Status::target_origin, [](Call& c) { c.target.origin.x = kMaxOrigin + 1; }},
+    {"an origin too far up", Status::target_origin, [](Call& c) { c.target.origin.y = -kMaxOrigin - 1; }},
+    {"two sample locations for one sample", Status::target_sample_locations,
+     [](Call& c) { c.target.sample_locations = c.places; }},
+    {"sample locations null", Status::target_sample_locations,
+     [](Call& c) { c.target.sample_locations = null_span<const SampleLocation>(1); }},
+    {"a sample location of 16", Status::target_sample_locations,
+     [](Call& c) {
+       c.places[0].y = 16;
+       c.target.sample_locations = std::span(c.places).first(1);
+     }},
+    {"sample locations of a conservative draw", Status::target_sample_locations,
+     [](Call& c) {
+       c.only_counts(Conservative::over);
+       c.target.sample_locations = std::span(c.places).first(1);
+     }},
+    {"no layers", Status::target_layers, [](Call& c) { c.target.layers = 0; }},
+    {"17 layers", Status::target_layers, [](Call& c) { c.target.layers = kMaxLayers + 1; }},
+    {"two layers in buffers of one", Status::target_index, [](Call& c) { c.target.layers = 2; }},
+    {"two layers without depth write", Status::target_layers,
+     [](Call& c) {
+       c.only_counts(Conservative::none);
+       c.target.layers = 2;
+       c.draw().depth_write = false;
+     }},
+    {"two layers of a conservative draw", Status::target_layers,
+     [](Call& c) {
+       c.only_counts(Conservative::touched);
+       c.target.layers = 2;
+     }},
+    {"depth of two layers is initial depth", Status::target_overlap,
+     [](Call& c) {
+       c.only_counts(Conservative::none);
+       c.target.layers = 2;
+       c.target.depth = std::span(c.depth).first(2 * kPixels);
+       c.target.initial_depth = std::span(c.depth).first(kPixels);
+     }},
+    {"winding too short", Status::target_winding,
+     [](Call& c) { c.target.winding = std::span(c.winding).first(kPixels - 1); }},
+    {"winding null", Status::target_winding, [](Call& c) { c.target.winding = null_span<std::int32_t>(kPixels); }},
+    {"winding over the count", Status::target_overlap,
+     [](Call& c) { c.target.winding = over<std::int32_t>(c.count, kPixels); }},
+    {"winding of a conservative draw", Status::draw_conservative,
+     [](Call& c) {
+       c.only_counts(Conservative::overlap);
+       c.target.winding = c.winding;
+     }},
+    {"index over the sample locations", Status::target_overlap,
+     [](Call& c) {
+       c.places.resize(kPixels);
+       c.target.sample_locations = std::span(c.places).first(1);
+       c.target.index = over<std::uint32_t>(c.places, kPixels);
+     }},
     {"unknown attribute location", Status::target_attribute_location,
      [](Call& c) { c.target.attribute_location = beyond(AttributeLocation::centroid); }},
     {"vertices null", Status::draw_vertices, [](Call& c) { c.draw().vertices = null_span<const Vertex>(3); }},
@@ -219,9 +281,41 @@ constexpr Fault kFaults[] = {
     {"unknown culling", Status::draw_cull, [](Call& c) { c.draw().cull = beyond(Cull::back); }},
     {"unknown depth mode", Status::draw_depth_mode, [](Call& c) { c.draw().depth_mode = beyond(DepthMode::clamp); }},
     {"unknown conservative mode", Status::draw_conservative,
-     [](Call& c) { c.draw().conservative = beyond(Conservative::inner); }},
+     [](Call& c) { c.draw().conservative = beyond(Conservative::touched); }},
     {"conservative with more than count", Status::draw_conservative,
      [](Call& c) { c.draw().conservative = Conservative::over; }},
+    {"a bias that is not a number", Status::draw_depth_bias,
+     [](Call& c) {
+       c.draw().depth_bias = DepthBias{std::numeric_limits<float>::quiet_NaN(), 0};
+     }},
+    {"an infinite slope of the bias", Status::draw_depth_bias,
+     [](Call& c) {
+       c.draw().depth_bias = DepthBias{0, std::numeric_limits<float>::infinity()};
+     }},
+    {"covered of two triangles", Status::draw_covered,
+     [](Call& c) { c.draw().covered = std::span(c.numbers).first(2); }},
+    {"covered null", Status::draw_covered, [](Call& c) { c.draw().covered = null_span<std::uint64_t>(1); }},
+    {"visible of two triangles", Status::draw_visible,
+     [](Call& c) { c.draw().visible = std::span(c.numbers).first(2); }},
+    {"visible of a conservative draw", Status::draw_visible,
+     [](Call& c) {
+       c.only_counts(Conservative::over);
+       c.draw().visible = std::span(c.numbers).first(1);
+     }},
+    {"covered is visible", Status::target_overlap,
+     [](Call& c) { c.draw().covered = c.draw().visible = std::span(c.numbers).first(1); }},
+    {"covered of one draw is visible of another", Status::target_overlap,
+     [](Call& c) {
+       c.draws.push_back(c.draws[0]);
+       c.draws[0].covered = c.draws[1].visible = std::span(c.numbers).first(1);
+     }},
+    {"covered over the count", Status::target_overlap,
+     [](Call& c) { c.draw().covered = over<std::uint64_t>(c.count, 1); }},
+    {"visible over the vertices of another draw", Status::target_overlap,
+     [](Call& c) {
+       c.draws.push_back(c.draws[0]);
+       c.draws[1].visible = over<std::uint64_t>(c.vertices, 1);
+     }},
     {"grid of -1 bits", Status::draw_grid,
      [](Call& c) {
        c.draw().grid = Grid{-1, 0, 0, {}};
@@ -328,13 +422,22 @@ constexpr Fault kAccepted[] = {
      [](Call& c) {
        c.draw().grid = Grid{12, 0, 0, GridRounding::nearest_up};
      }},
-    {"conservative with count alone", Status::ok,
+    {"conservative with count alone", Status::ok, [](Call& c) { c.only_counts(Conservative::inner); }},
+    {"conservative with count and index", Status::ok,
      [](Call& c) {
-       c.target.index = {};
-       c.target.depth = {};
-       c.target.barycentrics = {};
-       c.target.attributes = {};
-       c.draw().conservative = Conservative::inner;
+       c.only_counts(Conservative::touched);
+       c.target.index = std::span(c.index).first(kPixels);
+     }},
+    {"the farthest origin, all layers, numbers of triangles and a bias", Status::ok,
+     [](Call& c) {
+       c.only_counts(Conservative::none);
+       c.target.origin = {kMaxOrigin, -kMaxOrigin};
+       c.target.layers = kMaxLayers;
+       c.target.winding = c.winding;
+       c.target.sample_locations = std::span(c.places).first(1);
+       c.draw().covered = std::span(c.numbers).first(1);
+       c.draw().visible = std::span(c.numbers).subspan(1, 1);
+       c.draw().depth_bias = DepthBias{-1, 2};
      }},
 };
 

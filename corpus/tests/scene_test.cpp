@@ -110,7 +110,10 @@ TEST(SceneText, EveryFieldComesBack) {
   scene.width = 3;
   scene.height = 2;
   scene.samples = 4;
-  scene.depth_test = DepthTest::greater;
+  scene.depth_test = DepthTest::greater_equal;
+  scene.origin = {-4194304, 7};
+  scene.sample_locations = {{0, 15}, {3, 4}, {3, 4}, {15, 0}};
+  scene.more = {true, true, true};
   scene.attribute_location = AttributeLocation::centroid;
   for (int i = 0; i < 24; ++i) scene.initial_depth.push_back(static_cast<float>(i) / 3);
   scene.attributes = {{"u-v", 2, Interpolation::noperspective}, {"_id", 1, Interpolation::flat}};
@@ -128,6 +131,7 @@ TEST(SceneText, EveryFieldComesBack) {
   draw.scissor = Scissor{-2147483647 - 1, 0, 2147483647, 1};
   draw.grid = Grid{12, 15, 3, GridRounding::truncate};
   draw.culling_box.emplace().fill({1, 2, 3, 0.1F});
+  draw.depth_bias = DepthBias{-0.F, 0.1F};
   for (const FillRule rule :
        {FillRule::top_left, FillRule::top_right, FillRule::bottom_left, FillRule::bottom_right, FillRule::southwards,
         FillRule::southwards_west, FillRule::northwards, FillRule::northwards_west}) {
@@ -143,6 +147,10 @@ TEST(SceneText, EveryFieldComesBack) {
   Scene changed = scene;
   changed.draws[7].vertices[1].w = 0;
   EXPECT_FALSE(equal(scene, changed));
+  Scene layered = triangle_scene();
+  layered.layers = 16;
+  EXPECT_TRUE(equal(layered, read_scene(write_scene(layered))));
+  EXPECT_FALSE(equal(layered, triangle_scene()));
 }
 
 TEST(SceneText, CommentsComeBack) {
@@ -263,8 +271,22 @@ TEST(SceneText, RefusalsNameLineAndCause) {
       {with_frame_lines("samples"), "f:3: samples N: 1 field expected, 0 given"},
       {with_frame_lines("samples 3"), "f:3: '3' is none of: 1, 2, 4, 8, 16"},
       {with_frame_lines("samples 32"), "f:3: '32' is outside 1..16"},
-      {with_frame_lines("depth-test equal"), "f:3: 'equal' is none of: less, greater"},
+      {with_frame_lines("depth-test equal"), "f:3: 'equal' is none of: less, greater, less-equal, greater-equal"},
       {with_frame_lines("attribute-location center"), "f:3: 'center' is none of: centre, centroid"},
+      {with_frame_lines("origin 4194305 0"), "f:3: '4194305' is outside -4194304..4194304"},
+      {with_frame_lines("sample-locations 1 2 3"), "f:3: sample-locations X Y...: an X without a Y"},
+      {with_frame_lines("sample-locations 1 16"), "f:3: '16' is outside 0..15"},
+      {with_frame_lines("sample-locations 1 2\nsamples 2"), "f:3: sample-locations: 1 places for 2 samples (S7)"},
+      {with_frame_lines("layers 17"), "f:3: '17' is outside 1..16"},
+      {with_frame_lines("outputs depth"), "f:3: 'depth' is none of: winding, numbers, conservative-index"},
+      {with_frame_lines("outputs winding winding"), "f:3: 'winding' is given twice"},
+      {with_frame_lines("layers 2\ndraw\nconservative over\nend"),
+       "f:5: a frame with a conservative draw has one layer (V4)"},
+      {with_frame_lines("layers 2\ndraw\ndepth-write off\nend"),
+       "f:6: a frame with layers has no draw with depth-write off (V4)"},
+      {with_frame_lines("sample-locations 1 2\ndraw\nconservative over\nend"),
+       "f:5: a frame with a conservative draw has no sample locations (S7)"},
+      {with_draw_lines("depth-bias 0 inf"), "f:4: 'inf' is not finite"},
       {with_frame_lines("initial-depth"), "f:3: initial-depth Z...: 1 or more fields expected, 0 given"},
       {with_frame_lines("initial-depth 1 2\ninitial-depth 3"),
        "f:4: initial-depth: 3 values for a target of 16 samples; give one, or one a sample"},
@@ -293,7 +315,7 @@ TEST(SceneText, RefusalsNameLineAndCause) {
        "northwards, northwards-west, closed, open"},
       {with_draw_lines("depth-mode cut"), "f:4: 'cut' is none of: none, clip, clamp"},
       {with_draw_lines("depth-write yes"), "f:4: 'yes' is none of: on, off"},
-      {with_draw_lines("conservative outer"), "f:4: 'outer' is none of: none, over, inner"},
+      {with_draw_lines("conservative outer"), "f:4: 'outer' is none of: none, over, inner, overlap, touched"},
       {with_draw_lines("scissor 0 0 1"), "f:4: scissor X0 Y0 X1 Y1: 4 fields expected, 3 given"},
       {with_draw_lines("scissor 0 0 1 2147483648"), "f:4: '2147483648' is outside -2147483648..2147483647"},
       {with_draw_lines("scissor 0 0 1 1.5"), "f:4: '1.5' is not an integer"},

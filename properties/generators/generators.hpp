@@ -53,6 +53,10 @@ corpus::Scene random_scene(const Category& category, std::uint64_t seed, const S
 // The same, in every mode as the seed has it: several samples a pixel, Grid, conservative frames.
 corpus::Scene mixed_scene(const Category& category, std::uint64_t seed, int max_size, int max_triangles);
 
+// The same with an origin, sample places, layers, outputs and the modes that go with them (S6, S7, M4a to M4c, M9, M10,
+// V4, V5, I8, C5): each pair of them meets.
+corpus::Scene modes_scene(const Category& category, std::uint64_t seed, int max_size, int max_triangles);
+
 // Attributes of triangles all over each other, several to a row of pixels: arrays of every size, values of every
 // amount. Some are thin ones along rows, far from the screen's origin, with W of all sizes: edges have errors, each its
 // own.

@@ -59,6 +59,8 @@ inline Draw one_triangle(const Draw& draw, std::size_t t) {
   one.indices = draw.indices.subspan(3 * t, 3);
   one.first_index = draw.first_index + static_cast<std::uint32_t>(t);
   if (!draw.identifiers.empty()) one.identifiers = draw.identifiers.subspan(t, 1);
+  if (!draw.covered.empty()) one.covered = draw.covered.subspan(t, 1);
+  if (!draw.visible.empty()) one.visible = draw.visible.subspan(t, 1);
   return one;
 }
 
@@ -84,6 +86,7 @@ Status without(const Target& target, Draws draws, const Predicate& dropped) {
     }
     changed[d].indices = indices[d];
     changed[d].identifiers = identifiers[d];
+    changed[d].covered = changed[d].visible = {};  // the numbers that are left are not those of the positions
   }
   return right(target, changed);
 }
@@ -103,8 +106,12 @@ inline Counts right_counts(const Target& target, const Draw& draw) {
   only_count.width = target.width;
   only_count.height = target.height;
   only_count.samples = target.samples;
+  only_count.origin = target.origin;
+  only_count.sample_locations = target.sample_locations;
   only_count.count = counts;
-  (void)right(only_count, {&draw, 1});
+  Draw alone = draw;
+  alone.covered = alone.visible = {};
+  (void)right(only_count, {&alone, 1});
   return counts;
 }
 

@@ -8,8 +8,8 @@ namespace surefill::zoo {
 std::span<const Specimen> specimens() {
   static const std::vector<Specimen> all = [] {
     std::vector<Specimen> joined;
-    for (const std::span<const Specimen> list :
-         {coverage_specimens(), arithmetic_specimens(), value_specimens(), frame_specimens(), mode_specimens()})
+    for (const std::span<const Specimen> list : {coverage_specimens(), arithmetic_specimens(), value_specimens(),
+                                                 frame_specimens(), mode_specimens(), output_specimens()})
       joined.insert(joined.end(), list.begin(), list.end());
     return joined;
   }();

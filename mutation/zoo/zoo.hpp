@@ -30,6 +30,7 @@ std::span<const Specimen> arithmetic_specimens();
 std::span<const Specimen> value_specimens();
 std::span<const Specimen> frame_specimens();
 std::span<const Specimen> mode_specimens();
+std::span<const Specimen> output_specimens();
 
 }  // namespace surefill::zoo
 

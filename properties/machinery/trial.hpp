@@ -29,10 +29,11 @@ std::span<const Property> value_properties();
 std::span<const Property> frame_properties();
 std::span<const Property> call_properties();
 std::span<const Property> mode_properties();
+std::span<const Property> output_properties();
 std::span<const Property> split_properties();
 std::span<const Property> small_world_properties();
 
-inline constexpr corpus::Outputs kCountOnly{true, false, false, false, false};
+inline constexpr corpus::Outputs kCountOnly{true, false, false, false, false, false, false};
 
 // How the image of a changed scene shows the original one. What is left out is as in the original.
 struct Correspondence {

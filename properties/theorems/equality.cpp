@@ -124,16 +124,20 @@ corpus::Scene make_conservative(std::uint64_t n) {
   return make_mode(n, false, false, true);
 }
 
+corpus::Scene make_modes(std::uint64_t n) {
+  return modes_scene(category_of_case(n), n / categories().size(), 7, 5);
+}
+
 // The exact image. The last one is kept, since many renderers may be held against it in turn.
 const corpus::Image& exact_image(const corpus::Scene& scene, const corpus::Outputs& outputs) {
   struct Last {
     corpus::Scene scene;
-    std::array<bool, 5> outputs;
+    std::array<bool, 7> outputs;
     corpus::Image image;
   };
   thread_local std::optional<Last> last;
-  const std::array<bool, 5> asked{outputs.count, outputs.index, outputs.depth, outputs.barycentrics,
-                                  outputs.attributes};
+  const std::array<bool, 7> asked{outputs.count,      outputs.index,   outputs.depth,  outputs.barycentrics,
+                                  outputs.attributes, outputs.winding, outputs.numbers};
   if (!last || last->outputs != asked || !corpus::equal(last->scene, scene)) {
     corpus::Frame frame(scene, outputs);
     oracle::render(frame.target(), frame.draws());
@@ -179,6 +183,10 @@ constexpr Property kProperties[] = {
      make_samples, decide_all, true},
     {"equality-grid", "G1, G2", "frames snapped to a grid are the oracle's, bit for bit", true, true, 0, make_grid,
      decide_all, true},
+    {"equality-modes", "S6, S7, V4, V5, I8, M4a-M4c, M9, M10",
+     "frames with an origin, sample places, layers, bias, further depth tests and outputs are the oracle's, bit for "
+     "bit",
+     true, true, 0, make_modes, decide_all},
     {"equality-conservative", "M4", "counts of conservative draws are the oracle's", true, true, 0, make_conservative,
      decide_all},
 };

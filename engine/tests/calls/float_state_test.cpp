@@ -559,7 +559,7 @@ TEST(FloatState, TheC) {
   target.attributes = &attribute, target.attribute_count = 1;
   for (const std::uint32_t path : {SUREFILL_PATH_AUTOMATIC, SUREFILL_PATH_REFERENCE}) {
     for (const int threads : {1, 3}) {
-      const surefill_options options{sizeof options, threads, path, nullptr};
+      const surefill_options options{sizeof options, threads, path, nullptr, nullptr, nullptr};
       surefill_statistics statistics{};
       statistics.struct_size = sizeof statistics;
       check({"surefill_render",

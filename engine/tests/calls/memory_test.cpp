@@ -460,8 +460,8 @@ TEST(Memory, CRender) {
   EXPECT_EQ(refused, 6);  // the draws, their attributes, their vertices
   for (const How& how : kWays) {
     const Options& cpp = how.options;
-    if (cpp.executor.run != nullptr) continue;
-    const surefill_options options{sizeof options, cpp.threads, static_cast<std::uint32_t>(cpp.path), nullptr};
+    const surefill_options options{sizeof options, cpp.threads,      static_cast<std::uint32_t>(cpp.path),
+                                   nullptr,        cpp.executor.run, cpp.executor.context};
     const int of_render = check(
         {std::string("surefill_render, ") + how.name,
          prepare,
@@ -510,8 +510,8 @@ TEST(Memory, COcclusion) {
   const Bytes clear = state();
   for (const How& how : kWays) {
     const Options& cpp = how.options;
-    if (cpp.executor.run != nullptr) continue;
-    const surefill_options options{sizeof options, cpp.threads, static_cast<std::uint32_t>(cpp.path), nullptr};
+    const surefill_options options{sizeof options, cpp.threads,      static_cast<std::uint32_t>(cpp.path),
+                                   nullptr,        cpp.executor.run, cpp.executor.context};
     const int refused = check(
         {std::string("surefill_occlusion_draw, ") + how.name,
          [&] {

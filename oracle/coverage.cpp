@@ -5,11 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
-#include <vector>
-
-#include "oracle/exact.hpp"
-
 namespace surefill::oracle {
 
 namespace {
@@ -52,34 +47,15 @@ int sign_of_cross(double u, double s, double t, double v) {
   return sign_of_determinant({u, t, 0}, {s, v, 0}, {0, 0, 1});
 }
 
-// A convex polygon of the screen in homogeneous integers (w > 0), for M4.
-struct ScreenCorner {
-  Integer x, y, w;
-};
-
-// The part of a convex polygon (a point and a segment are polygons too) where a x + b y + c w >= 0: exact, and not
-// empty exactly if the intersection is not.
-std::vector<ScreenCorner> clip(const std::vector<ScreenCorner>& polygon, const Integer& a, const Integer& b,
-                               const Integer& c) {
-  const auto height = [&](const ScreenCorner& p) -> Integer { return a * p.x + b * p.y + c * p.w; };
-  std::vector<ScreenCorner> kept;
-  for (std::size_t n = 0; n < polygon.size(); ++n) {
-    const ScreenCorner& p = polygon[n];
-    const ScreenCorner& q = polygon[(n + 1) % polygon.size()];
-    const Integer hp = height(p), hq = height(q);
-    if (hp >= 0) kept.push_back(p);
-    if (sgn(hp) * sgn(hq) < 0) {
-      const Integer wp = abs(hq), wq = abs(hp);  // positive weights of p and q at which the height is 0
-      kept.push_back({wp * p.x + wq * q.x, wp * p.y + wq * q.y, wp * p.w + wq * q.w});
-    }
-  }
-  return kept;
-}
-
 }  // namespace
 
 Rect intersect(const Rect& a, const Rect& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};
+}
+
+Rect pixels_of(const Target& target) {
+  const Origin& origin = target.origin;
+  return {origin.x, origin.y, origin.x + target.width, origin.y + target.height};
 }
 
 Point sample_point(int samples, int n, int x, int y) {
@@ -95,6 +71,15 @@ Point sample_point(int samples, int n, int x, int y) {
 
 Point centre(int x, int y) {
   return {x * kUnits + kUnits / 2, y * kUnits + kUnits / 2};
+}
+
+Pattern::Pattern(const Target& target) : samples_(target.samples) {
+  for (int n = 0; n < samples_; ++n) {
+    const std::size_t place = static_cast<std::size_t>(n);
+    places_[place] = target.sample_locations.empty()
+                         ? sample_point(samples_, n, 0, 0)
+                         : Point{target.sample_locations[place].x, target.sample_locations[place].y};
+  }
 }
 
 int sign_of_determinant(const Position& m0, const Position& m1, const Position& m2) {
@@ -133,49 +118,18 @@ bool Cone::covers(Point p) const {
   return det_ != 0 && owning_sign(0, p) > 0 && owning_sign(1, p) > 0 && owning_sign(2, p) > 0;
 }
 
-bool Cone::square_within(const Rect& square) const {
-  if (det_ == 0) return false;
-  for (int edge = 0; edge < 3; ++edge) {
-    for (int n = 0; n < 4; ++n) {
-      if (sign(edge, square.corner(n)) < 0) return false;
-    }
-  }
-  return true;
-}
-
-bool Cone::square_meets(const Rect& square) const {
-  if (det_ == 0) return false;
-  std::vector<ScreenCorner> polygon = {
-      {square.x0, square.y0, 1}, {square.x1, square.y0, 1}, {square.x1, square.y1, 1}, {square.x0, square.y1, 1}};
-  std::array<float, 9> numbers{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    numbers[3 * i] = static_cast<float>(m_[i].x);
-    numbers[3 * i + 1] = static_cast<float>(m_[i].y);
-    numbers[3 * i + 2] = static_cast<float>(m_[i].w);
-  }
-  const int exponent = common_exponent(numbers);
-  std::array<Integer, 9> m;
-  for (std::size_t n = 0; n < 9; ++n) m[n] = scaled_integer(numbers[n], exponent);
-  for (std::size_t i = 0; i < 3; ++i) {
-    const std::size_t j = 3 * ((i + 1) % 3), k = 3 * ((i + 2) % 3);
-    const Integer a = m[j + 1] * m[k + 2] - m[j + 2] * m[k + 1];
-    const Integer b = m[j + 2] * m[k] - m[j] * m[k + 2];
-    const Integer c = m[j] * m[k + 1] - m[j + 1] * m[k];
-    polygon = clip(polygon, a * det_, b * det_, c * det_);
-  }
-  return !polygon.empty();
-}
-
-Rect Cone::bounds(int width, int height) const {
-  const Rect target{0, 0, width, height};
+Rect Cone::bounds(const Rect& target) const {
   if (m_[0].w <= 0 || m_[1].w <= 0 || m_[2].w <= 0) return target;
   // The hull of the projected vertices. Within the target a quotient in double is off by far less than a pixel, and two
   // pixels of margin hold M4's touching squares too; beyond it the clamp loses nothing.
-  const auto pixel = [](double value, int size) { return static_cast<int>(std::clamp(value, -4.0, size + 4.0)); };
+  const auto pixel = [](double value, int low, int high) {
+    return static_cast<int>(std::clamp(value, low - 4.0, high + 4.0));
+  };
   const auto [left, right] = std::minmax({m_[0].x / m_[0].w, m_[1].x / m_[1].w, m_[2].x / m_[2].w});
   const auto [top, bottom] = std::minmax({m_[0].y / m_[0].w, m_[1].y / m_[1].w, m_[2].y / m_[2].w});
-  return intersect(target, {pixel(std::floor(left), width) - 2, pixel(std::floor(top), height) - 2,
-                            pixel(std::ceil(right), width) + 2, pixel(std::ceil(bottom), height) + 2});
+  return intersect(
+      target, {pixel(std::floor(left), target.x0, target.x1) - 2, pixel(std::floor(top), target.y0, target.y1) - 2,
+               pixel(std::ceil(right), target.x0, target.x1) + 2, pixel(std::ceil(bottom), target.y0, target.y1) + 2});
 }
 
 }  // namespace surefill::oracle

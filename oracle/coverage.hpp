@@ -12,13 +12,13 @@
 
 namespace surefill::oracle {
 
-// A point of the screen in units of 1/16 pixel: every sample and every corner of a pixel is one (S4).
+// A point of space in units of 1/16 pixel: every sample and every corner of a pixel is one (S4, S6, S7).
 struct Point {
   std::int32_t x, y;
 };
 inline constexpr int kUnits = 16;
 
-// Half-open rectangle of pixels.
+// Half-open rectangle of pixels of space (S6).
 struct Rect {
   int x0, y0, x1, y1;
   bool empty() const { return x0 >= x1 || y0 >= y1; }
@@ -28,13 +28,33 @@ struct Rect {
 
 Rect intersect(const Rect& a, const Rect& b);
 
-// Sample n of pixel (x, y), for a pattern of `samples` a pixel.
+// The pixels of a target in space.
+Rect pixels_of(const Target& target);
+
+// Sample n of pixel (x, y), for the standard pattern of `samples` a pixel (S4).
 Point sample_point(int samples, int n, int x, int y);
 
 // The pixel centre.
 Point centre(int x, int y);
 
-// (X, Y, W): a position as S2 has it, without depth. As double, so that snapped positions (at most 33 bits) fit too.
+// Where a frame has its samples in each pixel: its own places (S7), or the standard ones.
+class Pattern {
+ public:
+  explicit Pattern(const Target& target);
+
+  int samples() const { return samples_; }
+  // Sample n of the pixel (x, y) of space.
+  Point at(int n, int x, int y) const {
+    const Point& place = places_[static_cast<std::size_t>(n)];
+    return {x * kUnits + place.x, y * kUnits + place.y};
+  }
+
+ private:
+  int samples_;
+  std::array<Point, 16> places_{};
+};
+
+// (X, Y, W): a position as S2 has it, without depth. As double, so that snapped positions (at most 40 bits) fit too.
 struct Position {
   double x, y, w;
 };
@@ -47,6 +67,7 @@ class Cone {
  public:
   Cone(const std::array<Position, 3>& positions, FillRule rule);
 
+  const std::array<Position, 3>& positions() const { return m_; }
   int sign_of_det() const { return det_; }  // of D
   int sign(int edge, Point p) const;        // of E_edge / D at p: -1, 0, 1
   // Where E_edge is not 0 at p its sign; else what the fill rule makes of it: the sign at p moved by C3's step, or
@@ -54,12 +75,8 @@ class Cone {
   int owning_sign(int edge, Point p) const;
   bool covers(Point p) const;  // C1, C2, C3, C5
 
-  // M4, for the closed square of a pixel. D = 0 gives false. Precondition: the positions are float32 values (no grid).
-  bool square_meets(const Rect& square) const;
-  bool square_within(const Rect& square) const;
-
-  // A rectangle of pixels outside of which nothing is covered, nor met by M4; it may be larger than need be.
-  Rect bounds(int width, int height) const;
+  // The pixels of `target` outside of which nothing is covered, nor met by M4; they may be more than need be.
+  Rect bounds(const Rect& target) const;
 
  private:
   std::array<Position, 3> m_;
@@ -73,12 +90,7 @@ inline constexpr unsigned kAllEdges = 7;
 // Calls visit(x, y, n) for the samples in `rect` that the cone covers. `undecided` are the edges not known to be
 // positive on all of rect. The corners of a rectangle decide for all of it, as E_i is affine.
 template <typename Visit>
-void visit_covered(const Cone& cone, const Rect& rect, int samples, unsigned undecided, const Visit& visit);
-
-// The same for conservative rasterization: visit(x, y) for the pixels of `rect` whose square meets T or lies in it
-// (M4).
-template <typename Visit>
-void visit_conservative(const Cone& cone, const Rect& rect, bool inner, unsigned undecided, const Visit& visit);
+void visit_covered(const Cone& cone, const Rect& rect, const Pattern& pattern, unsigned undecided, const Visit& visit);
 
 // --- templates
 
@@ -101,44 +113,29 @@ inline bool outside(const Cone& cone, const Rect& rect, unsigned& undecided) {
 
 // The quarters of a rectangle; a side of one pixel is not divided, and leaves some of them empty.
 inline std::array<Rect, 4> quarters(const Rect& r) {
-  const int x = (r.x0 + r.x1 + 1) / 2, y = (r.y0 + r.y1 + 1) / 2;
+  const int x = r.x0 + (r.x1 - r.x0 + 1) / 2, y = r.y0 + (r.y1 - r.y0 + 1) / 2;
   return {Rect{r.x0, r.y0, x, y}, Rect{x, r.y0, r.x1, y}, Rect{r.x0, y, x, r.y1}, Rect{x, y, r.x1, r.y1}};
 }
 
 template <typename Visit>
-void visit_covered(const Cone& cone, const Rect& rect, int samples, unsigned undecided, const Visit& visit) {
+void visit_covered(const Cone& cone, const Rect& rect, const Pattern& pattern, unsigned undecided, const Visit& visit) {
   constexpr int kLeafPixels = 16;  // small enough that its samples are tested one by one
   if (rect.empty() || cone.sign_of_det() == 0) return;
   if (outside(cone, rect, undecided)) return;
   if (undecided != 0 && (rect.x1 - rect.x0) * (rect.y1 - rect.y0) > kLeafPixels) {
-    for (const Rect& quarter : quarters(rect)) visit_covered(cone, quarter, samples, undecided, visit);
+    for (const Rect& quarter : quarters(rect)) visit_covered(cone, quarter, pattern, undecided, visit);
     return;
   }
   for (int y = rect.y0; y < rect.y1; ++y) {
     for (int x = rect.x0; x < rect.x1; ++x) {
-      for (int n = 0; n < samples; ++n) {
+      for (int n = 0; n < pattern.samples(); ++n) {
         bool covered = true;
         for (int edge = 0; covered && edge < 3; ++edge) {
-          covered = (undecided >> edge & 1u) == 0 || cone.owning_sign(edge, sample_point(samples, n, x, y)) > 0;
+          covered = (undecided >> edge & 1u) == 0 || cone.owning_sign(edge, pattern.at(n, x, y)) > 0;
         }
         if (covered) visit(x, y, n);
       }
     }
-  }
-}
-
-template <typename Visit>
-void visit_conservative(const Cone& cone, const Rect& rect, bool inner, unsigned undecided, const Visit& visit) {
-  if (rect.empty() || cone.sign_of_det() == 0) return;
-  if (outside(cone, rect, undecided)) return;
-  if (undecided == 0) {
-    for (int y = rect.y0; y < rect.y1; ++y) {
-      for (int x = rect.x0; x < rect.x1; ++x) visit(x, y);
-    }
-  } else if (rect.x1 - rect.x0 > 1 || rect.y1 - rect.y0 > 1) {
-    for (const Rect& quarter : quarters(rect)) visit_conservative(cone, quarter, inner, undecided, visit);
-  } else if (inner ? cone.square_within(rect) : cone.square_meets(rect)) {
-    visit(rect.x0, rect.y0);
   }
 }
 

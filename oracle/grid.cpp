@@ -76,7 +76,7 @@ double snap(const Integer& n, const Integer& d, unsigned bits, int offset, GridR
   // (n / d - offset 2^-(bits + 4)) 2^bits = (16 2^bits n - offset d) / (16 d)
   const Integer k = round_quotient((n << (bits + kOffsetBits)) - offset * d, d << kOffsetBits, rounding);
   const Integer snapped = offset + (k << kOffsetBits);
-  return snapped.get_d();  // exact: at most 32 bits
+  return snapped.get_d();  // exact: at most 40 bits
 }
 
 }  // namespace
@@ -109,13 +109,14 @@ bool hull_contains_eye(const std::array<IntegerVertex, 3>& m) {
   return det == 0 && dot(normal[0], normal[1]) > 0 && dot(normal[1], normal[2]) > 0 && dot(normal[2], normal[0]) > 0;
 }
 
-std::vector<IntegerVertex> clip_to_guard_band(const std::array<IntegerVertex, 3>& m) {
+std::vector<IntegerVertex> clip_to_guard_band(const std::array<IntegerVertex, 3>& m, const Origin& origin) {
   if (hull_contains_eye(m)) return {};
   std::vector<IntegerVertex> polygon(m.begin(), m.end());
-  polygon = clip(polygon, [](const IntegerVertex& v) -> Integer { return kGuardBand * v.w - v.x; });
-  polygon = clip(polygon, [](const IntegerVertex& v) -> Integer { return kGuardBand * v.w + v.x; });
-  polygon = clip(polygon, [](const IntegerVertex& v) -> Integer { return kGuardBand * v.w - v.y; });
-  polygon = clip(polygon, [](const IntegerVertex& v) -> Integer { return kGuardBand * v.w + v.y; });
+  // |X - ox W| <= g W, |Y - oy W| <= g W
+  polygon = clip(polygon, [&](const IntegerVertex& v) -> Integer { return (origin.x + kGuardBand) * v.w - v.x; });
+  polygon = clip(polygon, [&](const IntegerVertex& v) -> Integer { return v.x - (origin.x - kGuardBand) * v.w; });
+  polygon = clip(polygon, [&](const IntegerVertex& v) -> Integer { return (origin.y + kGuardBand) * v.w - v.y; });
+  polygon = clip(polygon, [&](const IntegerVertex& v) -> Integer { return v.y - (origin.y - kGuardBand) * v.w; });
   return polygon;
 }
 
@@ -150,8 +151,8 @@ int SnappedPolygon::winding(Point p) const {
   return sum;
 }
 
-Rect SnappedPolygon::bounds(int width, int height) const {
-  return fan_.empty() ? Rect{0, 0, 0, 0} : intersect(bounds_, {0, 0, width, height});
+Rect SnappedPolygon::bounds(const Rect& target) const {
+  return fan_.empty() ? Rect{0, 0, 0, 0} : intersect(bounds_, target);
 }
 
 }  // namespace surefill::oracle

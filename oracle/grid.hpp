@@ -24,9 +24,9 @@ std::array<IntegerVertex, 3> integer_vertices(const std::array<Vertex, 3>& verti
 // G1: does the hull of the three (X, Y, W) contain the origin?
 bool hull_contains_eye(const std::array<IntegerVertex, 3>& vertices);
 
-// G1: what is left of the triangle in the guard band, in its order; W > 0. Empty for a triangle whose hull contains the
-// eye.
-std::vector<IntegerVertex> clip_to_guard_band(const std::array<IntegerVertex, 3>& vertices);
+// G1: what is left of the triangle in the guard band of a target with this origin (S6), in its order; W > 0. Empty for a
+// triangle whose hull contains the eye.
+std::vector<IntegerVertex> clip_to_guard_band(const std::array<IntegerVertex, 3>& vertices, const Origin& origin);
 
 // A triangle as the grid leaves it.
 class SnappedPolygon {
@@ -35,7 +35,7 @@ class SnappedPolygon {
 
   const std::vector<Cone>& fan() const { return fan_; }  // empty: nothing is covered
   int winding(Point p) const;                            // N(p)
-  Rect bounds(int width, int height) const;              // no pixel outside has a sample with N != 0
+  Rect bounds(const Rect& target) const;                 // no pixel of it outside has a sample with N != 0
 
  private:
   std::vector<Cone> fan_;

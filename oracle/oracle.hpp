@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The exact image, by CGAL and GMP: slow and obviously right. Shares no arithmetic with the engine; of the engine it
-// uses the public types alone. Sections 1 to 8 of docs/semantics.md are covered: every fill rule (and C5's two, which
-// the engine still refuses), Grid with every rounding and offset, sample patterns, conservative rasterization, scissor,
-// depth modes and tests, several draws.
+// uses the public types alone. Sections 1 to 8 of docs/semantics.md are covered, and of section 10 what is about
+// triangles (S6, S7, M9, M10, M4a to M4c, V4, V5, I8): all of a target and of a draw that surefill.hpp has.
 #ifndef SUREFILL_ORACLE_ORACLE_HPP
 #define SUREFILL_ORACLE_ORACLE_HPP
 
@@ -15,8 +14,7 @@
 
 namespace surefill::oracle {
 
-// The oracle. Arguments as for surefill::render, and valid (surefill::validate(target, draws) == Status::ok, but
-// for C5's fill rules); culling boxes are ignored (M6). Works on `threads` threads; the image does not depend on their
+// The oracle. Arguments as for surefill::render, and valid, as the page has it; culling boxes are ignored (M6). Works on `threads` threads; the image does not depend on their
 // number. May throw bad_alloc.
 void render(const Target& target, std::span<const Draw> draws, int threads = 1);
 
@@ -30,7 +28,7 @@ class Probe {
   Probe(const Probe&) = delete;
   Probe& operator=(const Probe&) = delete;
 
-  // Is there a fragment at sample n of pixel (x, y)? [B1, C2, C3, F2, I5, M2, M3, G1]
+  // Is there a fragment at sample n of the target's pixel (x, y)? [B1, C2, C3, F2, I5, M2, M3, G1]
   bool covers(int x, int y, int n);
   // Its depth as stored. Precondition: covers(x, y, n).
   float depth(int x, int y, int n);

@@ -12,12 +12,31 @@ float stored(float value) {
   return value == 0 ? 0.0f : value;
 }
 
+// sum += a k
+void add_product(Integer& sum, const Integer& a, long k) {
+  if (k >= 0) {
+    mpz_addmul_ui(sum.get_mpz_t(), a.get_mpz_t(), static_cast<unsigned long>(k));
+  } else {
+    mpz_submul_ui(sum.get_mpz_t(), a.get_mpz_t(), static_cast<unsigned long>(-k));
+  }
+}
+
+// I8: c + s m, where m = steepest / det, or 0 if D = 0.
+Ratio bias_of(const DepthBias& bias, const Integer& steepest, const Integer& det) {
+  const std::array numbers = {bias.constant, bias.slope};
+  const int exponent = std::min(common_exponent(numbers), 0);
+  Ratio result{scaled_integer(bias.constant, exponent), 1};
+  if (det != 0) result = {result.n * det + scaled_integer(bias.slope, exponent) * steepest, det};
+  result.d <<= static_cast<mp_bitcnt_t>(-exponent);
+  return result;
+}
+
 }  // namespace
 
 void Edges::Plane::at(Point p, Integer& value) const {
-  value = c;  // coordinates of points are not negative
-  mpz_addmul_ui(value.get_mpz_t(), a.get_mpz_t(), static_cast<unsigned long>(p.x));
-  mpz_addmul_ui(value.get_mpz_t(), b.get_mpz_t(), static_cast<unsigned long>(p.y));
+  value = c;
+  add_product(value, a, p.x);
+  add_product(value, b, p.y);
 }
 
 Edges::Edges(const std::array<IntegerVertex, 3>& vertices) : m_(vertices) {
@@ -41,11 +60,16 @@ Edges::Plane Edges::weighted_sum(const Integer& u0, const Integer& u1, const Int
           u0 * edge_[0].c + u1 * edge_[1].c + u2 * edge_[2].c};
 }
 
-Depth::Depth(const Edges& edges, const std::vector<IntegerVertex>* clipped)
+Depth::Depth(const Edges& edges, const std::vector<IntegerVertex>* clipped, const std::optional<DepthBias>& bias)
     : plane_(edges.weighted_sum(edges.vertex(0).z, edges.vertex(1).z, edges.vertex(2).z)),
       denominator_(edges.det16()),
       constant_(edges.sign_of_det() == 0),
       clamped_(clipped != nullptr) {
+  if (bias) {
+    // The plane is one of 1/16 pixels, over 16 |D|: its slope in pixels is a / |D|.
+    const Integer along_x = abs(plane_.a), along_y = abs(plane_.b);
+    bias_ = bias_of(*bias, std::max(along_x, along_y), edges.det());
+  }
   if (clipped == nullptr || clipped->empty()) return;
   smallest_ = largest_ = {clipped->front().z, clipped->front().w};
   for (const IntegerVertex& corner : *clipped) {
@@ -71,6 +95,10 @@ std::optional<float> Depth::at(Point p, DepthMode mode) const {
   thread_local Integer n, d;
   real(p, n, d);
   if (mode == DepthMode::clip && (n < 0 || n > d)) return std::nullopt;
+  if (bias_) {
+    n = n * bias_->d + bias_->n * d;
+    d *= bias_->d;
+  }
   if (mode == DepthMode::clamp && n < 0) n = 0;
   if (mode == DepthMode::clamp && n > d) n = d;
   return nearest_finite(n, d);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Depth, barycentrics and attributes of one triangle (I1 to I5, G2): ratios of integers, rounded once.
+// Depth, barycentrics and attributes of one triangle (I1 to I5, I8, G2): ratios of integers, rounded once.
 #ifndef SUREFILL_ORACLE_VALUES_HPP
 #define SUREFILL_ORACLE_VALUES_HPP
 
@@ -42,10 +42,10 @@ class Edges {
 };
 
 // Depth of a triangle that the grid does not touch (`clipped` is null), or of one that was clipped to these corners
-// (G2).
+// (G2); biased if there is a bias (I8).
 class Depth {
  public:
-  Depth(const Edges& edges, const std::vector<IntegerVertex>* clipped);
+  Depth(const Edges& edges, const std::vector<IntegerVertex>* clipped, const std::optional<DepthBias>& bias);
 
   // The stored depth at p, or nothing where I5 clips it. Precondition: without a grid, D != 0.
   std::optional<float> at(Point p, DepthMode mode) const;
@@ -53,13 +53,14 @@ class Depth {
   bool keeps(Point p, DepthMode mode) const;
 
  private:
-  void real(Point p, Integer& n, Integer& d) const;
+  void real(Point p, Integer& n, Integer& d) const;  // z(p), without bias
 
   Edges::Plane plane_;
   Integer denominator_;
   bool constant_;  // D = 0: the smallest corner
   bool clamped_;   // to the corners
   Ratio smallest_, largest_;
+  std::optional<Ratio> bias_;  // c + s m
 };
 
 // The weights at one place: vertex i weighs w_i / sum w. on_vertex_0: vertex 0 stands in (G2).

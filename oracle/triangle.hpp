@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// One triangle of a draw: what it is, which samples it covers, and what is stored of it where it is seen.
+#ifndef SUREFILL_ORACLE_TRIANGLE_HPP
+#define SUREFILL_ORACLE_TRIANGLE_HPP
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "oracle/coverage.hpp"
+#include "oracle/grid.hpp"
+#include "oracle/values.hpp"
+
+namespace surefill::oracle {
+
+// V2: the index of triangle t.
+std::uint32_t index_of(const Draw& draw, std::size_t t);
+
+// B1: every position and every attribute of the triangle is finite.
+bool is_finite(const Draw& draw, std::size_t t);
+
+// F1: is a triangle, or with a grid a sample of it, of this sign of D or N front-facing? 0 is not (M4b).
+bool is_front(const Draw& draw, int sign);
+// F2: does culling leave it out?
+bool is_culled(const Draw& draw, int sign);
+
+// The set of samples that a triangle covers, before culling.
+class Shape {
+ public:
+  Shape(const Origin& origin, const Draw& draw, std::size_t t);
+
+  bool covers(Point p) const { return snapped_ ? snapped_->winding(p) != 0 : cone_->covers(p); }
+  Rect bounds(const Rect& target) const { return snapped_ ? snapped_->bounds(target) : cone_->bounds(target); }
+  const std::optional<Cone>& cone() const { return cone_; }
+  const std::optional<SnappedPolygon>& snapped() const { return snapped_; }
+  const std::vector<IntegerVertex>* clipped() const { return snapped_ ? &clipped_ : nullptr; }
+
+ private:
+  std::optional<Cone> cone_;  // without a grid
+  std::vector<IntegerVertex> clipped_;
+  std::optional<SnappedPolygon> snapped_;  // with a grid
+};
+
+// The depth of triangle t, of this shape (I1, I8, G2).
+Depth depth_of(const Draw& draw, std::size_t t, const Shape& shape);
+
+// What is stored of a visible triangle beside index and depth. The target and the draw outlive it.
+class Visible {
+ public:
+  Visible(const Target& target, const Draw& draw, std::size_t t);
+
+  // Stores barycentrics and attributes of the pixel (x, y) of space at `sample`, its place in the buffers.
+  void store(int x, int y, std::size_t sample);
+
+ private:
+  void find_weights(int x, int y);
+
+  const Target& target_;
+  Pattern pattern_;
+  bool grid_;
+  Shape shape_;
+  Edges edges_;
+  std::vector<Component> components_;
+  Weights weights_;
+};
+
+}  // namespace surefill::oracle
+
+#endif  // SUREFILL_ORACLE_TRIANGLE_HPP

@@ -91,16 +91,16 @@ class DrawRenderer {
     }
   }
 
-  // Who covers, and who is seen.
+  // Who covers, and who is seen. Without anybody being seen an index is M4c's.
   void rasterize() {
     std::fill(draw_.covered.begin(), draw_.covered.end(), 0u);
-    const bool conservative = draw_.conservative != Conservative::none;
+    const bool smallest = layers_ == nullptr && !target_.index.empty();
     traverse(0, target_.samples, [&](const Fragment& f) {
       const std::size_t s = sample_index(target_, f.x, f.y, static_cast<std::size_t>(f.n));
       if (!target_.count.empty()) ++target_.count[s];
       if (!draw_.covered.empty()) ++draw_.covered[f.position];
       if (!target_.winding.empty()) add_winding(f, s);
-      if (conservative && !target_.index.empty()) {  // M4c: kNoTriangle is larger than any
+      if (smallest) {  // kNoTriangle is larger than any
         target_.index[s] = std::min(target_.index[s], index_of(draw_, f.position));
       }
       if (layers_ != nullptr) see(f, s);

@@ -27,9 +27,9 @@ Status with_bias(const Target& target, Draws draws, const Change& change) {
 }
 
 constexpr Specimen kSpecimens[] = {
-    {"origin-ignored", "every tile shows the first one", "", "tiles",
+    {"origin-ignored", "every tile shows the first one", "", "tiles-of-a-picture",
      [](const Target& t, Draws d) { return with_target(t, d, [](Target& c) { c.origin = {}; }); }},
-    {"origin-scissor", "scissors count from the tile's corner, not from the picture's", "", "tiles",
+    {"origin-scissor", "scissors count from the tile's corner, not from the picture's", "", "tiles-of-a-picture",
      [](const Target& t, Draws d) {
        return with_state(t, d, [&](Draw& draw) {
          if (!draw.scissor) return;

@@ -23,7 +23,7 @@ corpus::Scene make_tiles(std::uint64_t n) {
   corpus::Scene scene = make_modes(n);
   for (corpus::SceneDraw& draw : scene.draws) draw.grid.reset();
   scene.more.numbers = false;  // they speak of a whole frame
-  if (scene.initial_depth.size() > 1) scene.initial_depth.resize(1);
+  if (scene.initial_depth.size() > 1) scene.initial_depth = {scene.initial_depth[0]};
   scene.origin.x = std::min(scene.origin.x, kMaxOrigin - 16);
   scene.origin.y = std::min(scene.origin.y, kMaxOrigin - 16);
   return scene;
@@ -156,7 +156,7 @@ TrialResult decide_numbers(const corpus::Scene& scene, const Renderer& renderer)
   std::uint64_t counts = 0, seen = 0;
   for (const std::uint32_t count : image->count) counts += count;
   const std::size_t total = image->count.size();
-  for (std::size_t s = 0; s < total && s < image->index.size(); ++s) seen += image->index[s] != kNoTriangle ? 1 : 0;
+  for (std::size_t s = 0; s < total && s < image->index.size(); ++s) seen += image->index[s] != kNoTriangle ? 1u : 0u;
   trial.looked_at(total);
   if (sum(image->covered) != counts)
     trial.differs("covered numbers sum to " + std::to_string(sum(image->covered)) + ", counts to " +
@@ -296,8 +296,8 @@ TrialResult decide_squares(const corpus::Scene& scene, const Renderer& renderer)
 }
 
 constexpr Property kProperties[] = {
-    {"tiles", "S6, T9", "a part of a frame, drawn with its own origin, is that part of the whole", false, true, 0,
-     make_tiles, decide_tiles},
+    {"tiles-of-a-picture", "S6, T9", "a part of a frame, drawn with its own origin, is that part of the whole", false,
+     true, 0, make_tiles, decide_tiles},
     {"layers-peel", "V4, T10", "a layer is what is seen without the triangles of the layers before", false, true, 0,
      make_layers, decide_layers},
     {"numbers-add-up", "M10", "the triangles' covered samples sum to the counts, the visible ones to the samples seen",

@@ -236,9 +236,9 @@ class Arguments {
   // Layers, origin and sample places (V4, S6, S7). Gives the number of layers that buffers are made for.
   std::size_t build_places(bool large) {
     if (one_in(8)) target_.layers = one_in(8) ? wild_int() : 1 + static_cast<int>(in_.below(3));
+    if (large) target_.layers = 1;
     const bool layers_ok = target_.layers >= 1 && target_.layers <= kMaxLayers;
     note(!layers_ok, Status::target_layers);
-    if (large) target_.layers = 1;
     if (one_in(8)) target_.origin = {one_in(2) ? wild_int() : 3, one_in(2) ? wild_int() : -4194304};
     const auto near = [](int place) { return place >= -kMaxOrigin && place <= kMaxOrigin; };
     note(!near(target_.origin.x) || !near(target_.origin.y), Status::target_origin);

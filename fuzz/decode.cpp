@@ -526,6 +526,16 @@ std::optional<Bytes> encode_samples(const Scene& scene) {
 
 constexpr int kLargeSide = 32;
 
+// Takes out what Path::automatic leaves to the reference path.
+void leave_to_fast_path(Scene& scene) {
+  scene.depth_test = reversed_bit(scene.depth_test) != 0 ? DepthTest::greater : DepthTest::less;
+  scene.origin = {}, scene.sample_locations.clear(), scene.layers = 1, scene.more = {};
+  for (SceneDraw& draw : scene.draws) {
+    draw.depth_bias.reset();
+    if (draw.conservative > Conservative::inner) draw.conservative = Conservative::over;
+  }
+}
+
 Scene decode_paths(std::span<const std::uint8_t> bytes) {
   const std::uint32_t sides = bytes.empty() ? 0u : bytes[0];
   Bytes rest(bytes.begin() + static_cast<std::ptrdiff_t>(std::min(bytes.size(), kPathPrefix)), bytes.end());
@@ -534,7 +544,7 @@ Scene decode_paths(std::span<const std::uint8_t> bytes) {
   scene.height = kPathSides[sides >> 3 & 7u];
   if (scene.width > kLargeSide && scene.height > kLargeSide) scene.height = kPathSides[0];
   while (scene.width * scene.height * scene.samples > kMostPathSamples) scene.samples /= 2;
-  if (!scene.sample_locations.empty()) scene.sample_locations.resize(static_cast<std::size_t>(scene.samples));
+  leave_to_fast_path(scene);
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());
   return scene;
@@ -546,6 +556,9 @@ std::optional<Bytes> encode_paths(const Scene& scene) {
   };
   const std::uint32_t width = side_number(scene.width), height = side_number(scene.height);
   if (scene.width > kLargeSide && scene.height > kLargeSide) return std::nullopt;
+  Scene plain = scene;
+  leave_to_fast_path(plain);
+  if (!corpus::equal(plain, scene)) return std::nullopt;
   if (width > 7 || height > 7 || scene.initial_depth.size() > 1) return std::nullopt;
   if (scene.samples > 16 || scene.width * scene.height * scene.samples > kMostPathSamples) return std::nullopt;
   Scene inner = scene;

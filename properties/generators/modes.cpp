@@ -50,11 +50,27 @@ void set_locations(Scene& scene, Random& random) {
   }
 }
 
+// The first draw conservative, with a degenerate triangle among its own.
+void set_conservative(Scene& scene, Random& random) {
+  SceneDraw& draw = scene.draws[0];
+  draw.conservative = Conservative::over;
+  draw.depth_mode = DepthMode::none;
+  draw.grid.reset();
+  scene.initial_depth.clear();
+  if (!draw.triangles.empty() && random.one_in(2)) {
+    std::array<std::uint32_t, 3>& corners =
+        draw.triangles[random.below(static_cast<std::uint32_t>(draw.triangles.size()))].vertices;
+    corners[2] = corners[random.below(2)];
+    if (random.one_in(4)) corners[1] = corners[0];
+  }
+}
+
 }  // namespace
 
 Scene modes_scene(const Category& category, std::uint64_t seed, int max_size, int max_triangles) {
   Scene scene = mixed_scene(category, seed, max_size, max_triangles);
   Random random(seed * 0x9E3779B97F4A7C15u + 0x21);
+  if (seed % 3 == 2 && scene.samples == 1) set_conservative(scene, random);
   const bool conservative = std::any_of(scene.draws.begin(), scene.draws.end(),
                                         [](const SceneDraw& draw) { return draw.conservative != Conservative::none; });
   if (random.one_in(2)) set_origin(scene, random);

@@ -7,6 +7,7 @@
 
 #include <span>
 
+#include "fragments.hpp"
 #include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
@@ -15,6 +16,9 @@ namespace surefill::reference {
 // As surefill::render, for arguments that validate() has accepted, with the floating-point state already set. Returns
 // ok or out_of_memory.
 Status render(const Target& target, std::span<const Draw> draws, Rungs& rungs) noexcept;
+
+// The fragments of one draw, onto what the draws before it have left.
+void draw(const Target& target, const Draw& draw, std::uint32_t number, Layers* layers, Rungs& rungs) noexcept;
 
 // As surefill::visit_coverage, in the same way. Returns ok.
 Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,

@@ -13,6 +13,7 @@
 #include "float_environment.hpp"
 #include "reference.hpp"
 #include "statistics.hpp"
+#include "streamed.hpp"
 #include "surefill/diagnostics.hpp"
 
 namespace surefill {
@@ -60,6 +61,9 @@ bool asks_for_outputs(const Target& target, std::span<const Draw> draws) {
 #if !defined(SUREFILL_REFERENCE_ONLY)
   if (options.path == Path::automatic && fast::supports(target, draws)) {
     return fast::render(target, draws, options, diagnostics);
+  }
+  if (options.path == Path::automatic && streamed::supports(target, draws)) {
+    return streamed::render(target, draws, options, diagnostics);
   }
 #endif
   diagnostics.path = "reference";

@@ -305,9 +305,9 @@ struct Statistics {
 
 // Who draws. Both paths give the same image.
 enum class Path : std::uint8_t {
-  automatic,  // the fast path; the reference path for 2^32 - 1 triangles and more in all draws together, and where an
-              // origin, own sample locations, layers, winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlap,
-              // touched or the index of conservative draws is asked for
+  automatic,  // the fast path; for layers, winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlap, touched and the
+              // index of conservative draws it finds who covers, and exact scalar code does the rest; the reference path
+              // where the target has an origin, and for 2^32 - 1 triangles and more in all draws together
   reference,  // the scalar reference path, on one thread
 };
 

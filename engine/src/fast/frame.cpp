@@ -264,21 +264,20 @@ class Frame {
 
 }  // namespace
 
-bool supports(const Target& target, std::span<const Draw> draws) {
-  if (target.origin != Origin{} || !target.sample_locations.empty() || target.layers != 1 || !target.winding.empty() ||
-      takes_equal(target.depth_test)) {
-    return false;
-  }
+bool streams(const Target& target, std::span<const Draw> draws) {
   std::uint64_t triangles = 0;
-  for (const Draw& draw : draws) {
-    triangles += triangles_of(draw);
+  for (const Draw& draw : draws) triangles += std::min<std::uint64_t>(triangles_of(draw), kNoTriangle);
+  return target.origin == Origin{} && triangles < kNoTriangle;
+}
+
+bool supports(const Target& target, std::span<const Draw> draws) {
+  const auto plain = [&](const Draw& draw) {
     const bool squares = draw.conservative != Conservative::none;
-    if (triangles >= kNoTriangle || draw.depth_bias || !draw.covered.empty() || !draw.visible.empty() ||
-        draw.conservative > Conservative::inner || (squares && !target.index.empty())) {
-      return false;
-    }
-  }
-  return true;
+    return !draw.depth_bias && draw.covered.empty() && draw.visible.empty() &&
+           draw.conservative <= Conservative::inner && !(squares && !target.index.empty());
+  };
+  return streams(target, draws) && target.layers == 1 && target.winding.empty() && !takes_equal(target.depth_test) &&
+         std::all_of(draws.begin(), draws.end(), plain);
 }
 
 Status render(const Target& target, std::span<const Draw> draws, const Options& options,

@@ -11,8 +11,10 @@
 
 namespace surefill::fast {
 
-// Does the fast path draw frames like this one? If not, the reference path has to.
+// Does the fast path draw frames like this one? If not, others have to.
 bool supports(const Target& target, std::span<const Draw> draws);
+// And does it stream their coverage, but for M4a and M4b?
+bool streams(const Target& target, std::span<const Draw> draws);
 
 // As reference::render. Working memory: 4 bytes a pixel for depth, 4 for visibility, 4 for counts, as far as they are
 // asked for, with the target's sides rounded up to multiples of 64; 16 MiB for the triangles of a chunk and their

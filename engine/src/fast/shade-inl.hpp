@@ -36,6 +36,7 @@ class Shader {
       const AttributeTarget& out = target_.attributes[k];
       if (!out.values.empty()) outputs_[count_++] = {out.values.data(), out.components, k};
     }
+    if (target_.samples == 1) place_ = sample_offset(target_, 0);
     for (std::size_t l = 0; l < kCellSamples; ++l) {
       sample_[l] =
           ((l >> 2) * static_cast<std::size_t>(target_.width) + (l & 3)) * static_cast<std::size_t>(target_.samples);
@@ -269,8 +270,8 @@ class Shader {
     if (HWY_UNLIKELY(target_.samples > 1)) FindPlaces(pixels, lanes);
     for (std::size_t lane = 0; lane < kCellSamples; lane += kLanes) {
       if ((lanes >> lane & ((1u << kLanes) - 1)) == 0) continue;
-      Double px = hn::Add(hn::Set(d, tile_x_ + cell_x_ + 0.5), hn::Load(d, kColumns + lane));
-      Double py = hn::Add(hn::Set(d, tile_y_ + cell_y_ + 0.5), hn::Load(d, kRows + lane));
+      Double px = hn::Add(hn::Set(d, tile_x_ + cell_x_ + place_.x), hn::Load(d, kColumns + lane));
+      Double py = hn::Add(hn::Set(d, tile_y_ + cell_y_ + place_.y), hn::Load(d, kRows + lane));
       if (HWY_UNLIKELY(target_.samples > 1)) px = hn::Load(d, place_x_ + lane), py = hn::Load(d, place_y_ + lane);
       Double x[3], y[3], w[3], e[3], size_x = hn::Zero(d), size_y = size_x;
       for (std::size_t k = 0; k < 3; ++k) {
@@ -349,7 +350,7 @@ class Shader {
   }
   // About the cell's first pixel.
   HWY_NOINLINE void SetUp(const std::uint32_t* indices, Interpolation kind, Planes& planes) const {
-    const double px = tile_x_ + cell_x_ + 0.5, py = tile_y_ + cell_y_ + 0.5;
+    const double px = tile_x_ + cell_x_ + place_.x, py = tile_y_ + cell_y_ + place_.y;
     double x[3], y[3], e[3], a[3], b[3], size_x = 0, size_y = 0, steps = 0;
     const Vertex v[3] = {draw().vertices[indices[0]], draw().vertices[indices[1]], draw().vertices[indices[2]]};
     for (std::size_t k = 0; k < 3; ++k) {
@@ -473,7 +474,7 @@ class Shader {
 
   // Components that the bound could not tell.
   HWY_NOINLINE void StoreExact(const Pixels& pixels, std::size_t lane, std::uint32_t unknown, const Output& out) {
-    SamplePosition p{tile_x_ + cell_x_ + kColumn[lane] + 0.5, tile_y_ + cell_y_ + kRow[lane] + 0.5};
+    SamplePosition p{tile_x_ + cell_x_ + kColumn[lane] + place_.x, tile_y_ + cell_y_ + kRow[lane] + place_.y};
     if (target_.samples > 1) p = {place_x_[lane], place_y_[lane]};
     rungs_.values_by_filter -= static_cast<std::uint64_t>(std::popcount(unknown));
     for (; unknown != 0; unknown &= unknown - 1) {
@@ -519,7 +520,8 @@ class Shader {
   bool has_planes_ = false;
   int tile_x_ = 0, tile_y_ = 0, columns_ = 0, rows_ = 0, cell_x_ = 0, cell_y_ = 0;
   std::size_t first_sample_ = 0;
-  alignas(64) double place_x_[kCellSamples], place_y_[kCellSamples];  // where attributes are taken
+  SamplePosition place_{0.5, 0.5};                                    // of attributes in a pixel of one sample
+  alignas(64) double place_x_[kCellSamples], place_y_[kCellSamples];  // and in pixels of several
   Weights weights_;
   Planes planes_[2][kPlanes];  // of triangles that were seen last in the tile: perspective, noperspective
   ExactDraw exact_;

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cfenv>
 #include <cfloat>
 #include <cmath>
@@ -17,6 +18,7 @@
 #include <memory>
 #include <new>
 #include <span>
+#include <utility>
 
 #if defined(__SSE2__)
 #include <immintrin.h>
@@ -89,7 +91,7 @@ struct PixelBox {
   bool contains(int x, int y) const { return x0 <= x && x < x1 && y0 <= y && y < y1; }
 };
 
-// A sample position in pixels: a multiple of 1/16 in [0, kMaxTargetSize], exact in double.
+// A place in space, in pixels: a multiple of 1/16, at most kMaxOrigin + kMaxTargetSize in magnitude, exact in double.
 struct SamplePosition {
   double x, y;
 };
@@ -110,10 +112,18 @@ inline Wanted wanted_outputs(const Target& target) {
   return wanted;
 }
 
-// Where sample n of a pixel lies, from the pixel's corner (S4).
-inline SamplePosition sample_offset(int samples, int n) {
-  const SampleLocation location = sample_location(samples, n);
+// Where sample n of a pixel lies, from the pixel's corner (S4, S7).
+inline SamplePosition sample_offset(const Target& target, int n) {
+  const SampleLocation location = target.sample_locations.empty()
+                                      ? sample_location(target.samples, n)
+                                      : target.sample_locations[static_cast<std::size_t>(n)];
   return {location.x / 16.0, location.y / 16.0};
+}
+
+// And where that is in pixel (x, y) of space.
+inline SamplePosition place_of_sample(const Target& target, int x, int y, int n) {
+  const SamplePosition offset = sample_offset(target, n);
+  return {x + offset.x, y + offset.y};
 }
 
 // The element of a buffer that sample n of pixel (x, y) has.
@@ -123,10 +133,18 @@ inline std::size_t sample_index(const Target& target, int x, int y, std::size_t 
          n;
 }
 
+// Is the larger depth nearer (V1)? And is the later one of equal depths seen (V5)?
+inline bool is_reversed(DepthTest test) {
+  return test == DepthTest::greater || test == DepthTest::greater_equal;
+}
+inline bool takes_equal(DepthTest test) {
+  return test >= DepthTest::less_equal;
+}
+
 // The depth of an empty sample without initial depth (V1).
 inline float empty_depth(DepthTest test) {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  return test == DepthTest::greater ? -kInfinity : kInfinity;
+  return is_reversed(test) ? -kInfinity : kInfinity;
 }
 
 // ---- of a draw
@@ -134,9 +152,9 @@ inline std::size_t triangles_of(const Draw& draw) {
   return draw.indices.size() / 3;
 }
 
-// Target and scissor (M3).
+// Target and scissor (M3), in pixels of space (S6).
 inline PixelBox region_of(const Target& target, const Draw& draw) {
-  PixelBox region{0, 0, target.width, target.height};
+  PixelBox region{target.origin.x, target.origin.y, target.origin.x + target.width, target.origin.y + target.height};
   if (draw.scissor) {
     region = {std::max(region.x0, draw.scissor->x0), std::max(region.y0, draw.scissor->y0),
               std::min(region.x1, draw.scissor->x1), std::min(region.y1, draw.scissor->y1)};
@@ -150,10 +168,15 @@ inline std::size_t stride_of(const AttributeArray& attribute) {
   return attribute.stride != 0 ? attribute.stride : attribute.components;
 }
 
-// Does culling leave out what faces so? `facing` has the sign of D (F1, F2) or, under Grid, that of a sample (G1).
+// Is it the front that faces so? `facing` has the sign of D (F1) or, under Grid, that of a sample (G1); D = 0 is
+// back-facing (M4b).
+inline bool faces_front(const DrawState& draw, int facing) {
+  return facing != 0 && (facing > 0) == (draw.front_face == FrontFace::clockwise);
+}
+
+// Does culling leave out what faces so (F2)?
 inline bool culls(const DrawState& draw, int facing) {
-  const bool front = (facing > 0) == (draw.front_face == FrontFace::clockwise);
-  return draw.cull == (front ? Cull::front : Cull::back);
+  return draw.cull == (faces_front(draw, facing) ? Cull::front : Cull::back);
 }
 
 // ---- of a triangle, by its position in the draw
@@ -320,30 +343,69 @@ class FloatEnvironment {
 
 }  // namespace surefill_reference
 
-// ---------------------------------------------------------------- src/reference.hpp
+// ---------------------------------------------------------------- src/exact/bounds.hpp
 //
-// The scalar reference path: plain portable C++, one triangle and one sample at a time. It is what the fast path is
-// held to.
+// A box of pixels that holds every sample a triangle can cover. Vertices are divided by W only where W > 0; a vertex at
+// or behind the eye either proves that it does not reach past a bound, or the box ends at the target's edge there (J.
+// Blinn, Calculating Screen Coverage, 1996).
 
 
 
-namespace surefill_reference::reference {
-
-// As surefill_reference::render, for arguments that validate() has accepted, with the floating-point state already set. Returns
-// ok or out_of_memory.
-Status render(const Target& target, std::span<const Draw> draws, Rungs& rungs) noexcept;
-
-// As surefill_reference::visit_coverage, in the same way. Returns ok.
-Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
-                      Rungs& rungs) noexcept;
-
-}  // namespace surefill_reference::reference
-
-// ---------------------------------------------------------------- src/statistics.hpp
 namespace surefill_reference {
 
-// M11: of draws that validate() has accepted, with the floating-point state already set. No path has a part in it.
-Statistics statistics_of(std::span<const Draw> draws) noexcept;
+// An interval of real numbers: what a triangle reaches along one axis in front of the eye.
+struct Reach {
+  double low, high;
+};
+
+// Along one axis: `c` is X (or Y) of the three vertices. Not all W are <= 0.
+//
+// A visible point is a sum of l_i m_i with l_i >= 0 and W > 0. If c_i - high W_i <= 0 for every vertex, the same holds
+// for the sum, so c / W <= high. For W_i > 0 that is c_i / W_i <= high. Rounding the quotient is monotonic and sample
+// coordinates are doubles, so no margin is needed while all W > 0; with another vertex in play the bounds move outwards
+// by one ulp.
+inline Reach reach(const double (&c)[3], const double (&w)[3]) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  Reach r{kInfinity, -kInfinity};
+  bool all_in_front = true;
+  for (int i = 0; i < 3; ++i) {
+    if (w[i] > 0) {
+      r.low = std::min(r.low, c[i] / w[i]);
+      r.high = std::max(r.high, c[i] / w[i]);
+    } else {
+      all_in_front = false;
+    }
+  }
+  if (all_in_front) return r;
+  r.low = std::nextafter(r.low, -kInfinity);
+  r.high = std::nextafter(r.high, kInfinity);
+  for (int i = 0; i < 3; ++i) {
+    if (w[i] > 0) continue;
+    // high W_i and low W_i with their rounding error taken to the unsafe side; 0 is exact.
+    const double at_high = r.high * w[i], at_low = r.low * w[i];
+    if (!(c[i] <= at_high - std::fabs(at_high) * 0x1p-52)) r.high = kInfinity;
+    if (!(c[i] >= at_low + std::fabs(at_low) * 0x1p-52)) r.low = -kInfinity;
+  }
+  return r;
+}
+
+// Pixels i of [first, last) with a sample coordinate i + offset in the reach, offset between the two given ones.
+inline void clip_to_reach(Reach r, double least_offset, double largest_offset, int* first, int* last) {
+  const double lowest = std::ceil(r.low - largest_offset), highest = std::floor(r.high - least_offset);
+  *first = static_cast<int>(std::clamp(lowest, static_cast<double>(*first), static_cast<double>(*last)));
+  *last = static_cast<int>(std::clamp(highest + 1, static_cast<double>(*first), static_cast<double>(*last)));
+}
+
+// The part of `limits` that the triangle can reach. Sample offsets within a pixel lie in [least_offset,
+// largest_offset].
+inline PixelBox screen_box(const Vertex& v0, const Vertex& v1, const Vertex& v2, PixelBox limits, double least_offset,
+                           double largest_offset) {
+  const double w[3] = {v0.w, v1.w, v2.w};
+  if (!(w[0] > 0 || w[1] > 0 || w[2] > 0)) return {0, 0, 0, 0};
+  clip_to_reach(reach({v0.x, v1.x, v2.x}, w), least_offset, largest_offset, &limits.x0, &limits.x1);
+  clip_to_reach(reach({v0.y, v1.y, v2.y}, w), least_offset, largest_offset, &limits.y0, &limits.y1);
+  return limits;
+}
 
 }  // namespace surefill_reference
 
@@ -354,8 +416,8 @@ Statistics statistics_of(std::span<const Draw> draws) noexcept;
 // Floating-Point Arithmetic and Fast Robust Geometric Predicates, 1997.
 //
 // Holds in round-to-nearest with subnormals and without contraction to FMA (B4; the build sets -ffp-contract=off).
-// Range: all numbers here are sums of products of at most five float32 values or float32 midpoints and two sample
-// coordinates: between 2^-760 and 2^700, so nothing overflows, and no error term underflows.
+// Range: all numbers here are sums of products of at most six float32 values or float32 midpoints and three sample
+// coordinates: multiples of 2^-910 below 2^850, so nothing overflows, and no error term underflows.
 
 
 
@@ -388,6 +450,14 @@ inline DoublePair two_product(double a, double b) {
 template <std::size_t kCapacity>
 class Expansion {
  public:
+  Expansion() = default;
+  // The same number with room for more terms.
+  template <std::size_t kOther>
+  explicit Expansion(const Expansion<kOther>& other) : size_(other.size()) {
+    static_assert(kOther <= kCapacity);
+    for (int i = 0; i < size_; ++i) term_[i] = other.term(i);
+  }
+
   // Adds one double. At most one term more.
   void add(double b) {
     int kept = 0;
@@ -411,6 +481,17 @@ class Expansion {
   template <std::size_t kOther>
   void add_scaled(const Expansion<kOther>& other, double factor) {
     for (int i = 0; i < other.size(); ++i) add_product(other.term(i), factor);
+  }
+
+  // Adds a * b: at most twice as many terms more as the product of their numbers.
+  template <std::size_t kA, std::size_t kB>
+  void add_product_of(const Expansion<kA>& a, const Expansion<kB>& b) {
+    for (int i = 0; i < b.size(); ++i) add_scaled(a, b.term(i));
+  }
+
+  // Changes the sign.
+  void negate() {
+    for (int i = 0; i < size_; ++i) term_[i] = -term_[i];
   }
 
   int sign() const { return size_ == 0 ? 0 : term_[size_ - 1] > 0 ? 1 : -1; }
@@ -523,11 +604,11 @@ struct EdgeFunction {
 
   // E at p in double, and a bound of its absolute error.
   double value(SamplePosition p, double* error_bound) const {
-    *error_bound = kEdgeErrorBound * ((std::fabs(a) * p.x + std::fabs(b) * p.y) + std::fabs(c));
+    *error_bound = kEdgeErrorBound * ((std::fabs(a * p.x) + std::fabs(b * p.y)) + std::fabs(c));
     return (a * p.x + b * p.y) + c;
   }
 
-  // E at p, exactly. Four products of 48 bits times 18 bits, and two of 48 bits.
+  // E at p, exactly. Four products of 48 bits times 27 bits, and two of 48 bits.
   Expansion<10> exact_value(SamplePosition p) const {
     const double jx = from.x, jy = from.y, jw = from.w, kx = to.x, ky = to.y, kw = to.w;
     Expansion<10> sum;
@@ -635,133 +716,6 @@ inline int determinant_sign(const EdgeFunction& edge0, const Vertex& v0, Rungs* 
 
 }  // namespace surefill_reference
 
-// ---------------------------------------------------------------- src/overlap.hpp
-//
-// Which memory a call writes, and whether that overlaps what it reads (B2).
-
-
-
-namespace surefill_reference {
-
-struct Bytes {
-  std::uint64_t begin = 0, end = 0;  // in 64 bits: memory may end where the addresses do
-
-  Bytes() = default;
-  Bytes(const void* data, std::uint64_t size) : begin(reinterpret_cast<std::uintptr_t>(data)), end(begin + size) {}
-  template <typename T>
-  explicit Bytes(std::span<T> s) : Bytes(s.data(), s.size() * std::uint64_t{sizeof(T)}) {}
-  // Of one object, which may be null.
-  template <typename T>
-  static Bytes of(const T* object) {
-    return {object, object == nullptr ? 0 : sizeof(T)};
-  }
-
-  // Do they share a byte? Empty ones share none.
-  bool overlaps(const Bytes& other) const {
-    return begin < end && other.begin < other.end && begin < other.end && other.begin < end;
-  }
-};
-
-// The memory that a call writes.
-class Outputs {
- public:
-  // False if it overlaps what was there before.
-  bool add(const Bytes& bytes) {
-    if (touched_by(bytes)) return false;
-    bytes_[count_++] = bytes;
-    return true;
-  }
-
-  // All buffers of a target; false if they overlap. A list of attributes that is null or too long is not read.
-  bool add_buffers(const Target& target) {
-    bool apart = add(Bytes(target.count)) && add(Bytes(target.index)) && add(Bytes(target.depth)) &&
-                 add(Bytes(target.barycentrics));
-    if (target.attributes.data() == nullptr || target.attributes.size() > kMaxAttributes) return apart;
-    for (const AttributeTarget& attribute : target.attributes) apart = apart && add(Bytes(attribute.values));
-    return apart;
-  }
-
-  bool touched_by(const Bytes& bytes) const {
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (bytes_[i].overlaps(bytes)) return true;
-    }
-    return false;
-  }
-
- private:
-  static constexpr std::size_t kMost = 6 + kMaxAttributes;  // four buffers, the attributes, statistics, diagnostics
-  Bytes bytes_[kMost];
-  std::size_t count_ = 0;
-};
-
-}  // namespace surefill_reference
-
-// ---------------------------------------------------------------- src/exact/bounds.hpp
-//
-// A box of pixels that holds every sample a triangle can cover. Vertices are divided by W only where W > 0; a vertex at
-// or behind the eye either proves that it does not reach past a bound, or the box ends at the target's edge there (J.
-// Blinn, Calculating Screen Coverage, 1996).
-
-
-
-namespace surefill_reference {
-
-// An interval of real numbers: what a triangle reaches along one axis in front of the eye.
-struct Reach {
-  double low, high;
-};
-
-// Along one axis: `c` is X (or Y) of the three vertices. Not all W are <= 0.
-//
-// A visible point is a sum of l_i m_i with l_i >= 0 and W > 0. If c_i - high W_i <= 0 for every vertex, the same holds
-// for the sum, so c / W <= high. For W_i > 0 that is c_i / W_i <= high. Rounding the quotient is monotonic and sample
-// coordinates are doubles, so no margin is needed while all W > 0; with another vertex in play the bounds move outwards
-// by one ulp.
-inline Reach reach(const double (&c)[3], const double (&w)[3]) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  Reach r{kInfinity, -kInfinity};
-  bool all_in_front = true;
-  for (int i = 0; i < 3; ++i) {
-    if (w[i] > 0) {
-      r.low = std::min(r.low, c[i] / w[i]);
-      r.high = std::max(r.high, c[i] / w[i]);
-    } else {
-      all_in_front = false;
-    }
-  }
-  if (all_in_front) return r;
-  r.low = std::nextafter(r.low, -kInfinity);
-  r.high = std::nextafter(r.high, kInfinity);
-  for (int i = 0; i < 3; ++i) {
-    if (w[i] > 0) continue;
-    // high W_i and low W_i with their rounding error taken to the unsafe side; 0 is exact.
-    const double at_high = r.high * w[i], at_low = r.low * w[i];
-    if (!(c[i] <= at_high - std::fabs(at_high) * 0x1p-52)) r.high = kInfinity;
-    if (!(c[i] >= at_low + std::fabs(at_low) * 0x1p-52)) r.low = -kInfinity;
-  }
-  return r;
-}
-
-// Pixels i of [first, last) with a sample coordinate i + offset in the reach, offset between the two given ones.
-inline void clip_to_reach(Reach r, double least_offset, double largest_offset, int* first, int* last) {
-  const double lowest = std::ceil(r.low - largest_offset), highest = std::floor(r.high - least_offset);
-  *first = static_cast<int>(std::clamp(lowest, static_cast<double>(*first), static_cast<double>(*last)));
-  *last = static_cast<int>(std::clamp(highest + 1, static_cast<double>(*first), static_cast<double>(*last)));
-}
-
-// The part of `limits` that the triangle can reach. Sample offsets within a pixel lie in [least_offset,
-// largest_offset].
-inline PixelBox screen_box(const Vertex& v0, const Vertex& v1, const Vertex& v2, PixelBox limits, double least_offset,
-                           double largest_offset) {
-  const double w[3] = {v0.w, v1.w, v2.w};
-  if (!(w[0] > 0 || w[1] > 0 || w[2] > 0)) return {0, 0, 0, 0};
-  clip_to_reach(reach({v0.x, v1.x, v2.x}, w), least_offset, largest_offset, &limits.x0, &limits.x1);
-  clip_to_reach(reach({v0.y, v1.y, v2.y}, w), least_offset, largest_offset, &limits.y0, &limits.y1);
-  return limits;
-}
-
-}  // namespace surefill_reference
-
 // ---------------------------------------------------------------- src/exact/triangle.hpp
 //
 // One triangle set up for exact evaluation at samples: coverage (C2, C3), depth (I1, I5), attributes (I2, I3), each by
@@ -822,8 +776,9 @@ class Triangle {
     return true;
   }
 
-  // Depth at p as I4 stores it; false if depth clipping removes the fragment (I5).
-  bool depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs = nullptr) {
+  // Depth at p, with the bias of I8, as I4 stores it; false if depth clipping removes the fragment (I5).
+  bool depth(SamplePosition p, const DrawState& state, float* stored, Rungs* rungs = nullptr) {
+    const DepthMode mode = state.depth_mode;
     const Approximation q = approximate_depth(p);
     if (mode == DepthMode::clip) {
       const double low = q.value - q.error, high = q.value + q.error;
@@ -833,7 +788,7 @@ class Triangle {
       }
       if (!(low > 0 && high < 1) && !inside_unit_range(exact_depth_numerator(p), rungs)) return false;
     }
-    *stored = rounded_depth(p, q, rungs);
+    *stored = state.depth_bias ? biased_depth(p, *state.depth_bias, rungs) : rounded_depth(p, q, rungs);
     if (mode == DepthMode::clamp) *stored = *stored < 0 ? 0.0f : *stored > 1 ? 1.0f : *stored;  // rounding is monotonic
     return true;
   }
@@ -841,6 +796,51 @@ class Triangle {
   // The depth at p (I1), whether or not the triangle covers p, as I4 rounds it. D is not 0.
   float rounded_depth(SamplePosition p, Rungs* rungs = nullptr) {
     return rounded_depth(p, approximate_depth(p), rungs);
+  }
+
+  // The same with a bias (I8).
+  float biased_depth(SamplePosition p, const DepthBias& bias, Rungs* rungs = nullptr) {
+    const auto exact = [&] {
+      Expansion<108> numerator(exact_depth_numerator(p));
+      numerator.add_scaled(exact_determinant_value(), bias.constant);
+      numerator.add_scaled(exact_slope_numerator(), bias.slope);
+      return round_quotient(numerator, exact_determinant_value());
+    };
+    return rounded(with_bias(approximate_depth(p), bias), exact, rungs);
+  }
+
+  // z + c + s m (I8) for an approximation of z. D is not 0. The factor covers the rounding of sums and bounds.
+  Approximation with_bias(Approximation z, const DepthBias& bias) {
+    const Approximation m = approximate_slope();
+    const double c = bias.constant, s = bias.slope, term = s * m.value;
+    const double magnitude = (std::fabs(z.value) + std::fabs(c)) + std::fabs(term);
+    return {(z.value + c) + term, (z.error + std::fabs(s) * m.error) * (1 + 0x1p-20) + 0x1p-50 * magnitude};
+  }
+
+  // I8's m times D, exactly: D is not 0.
+  Expansion<12> exact_slope_numerator() const {
+    Expansion<12> along_x, along_y;
+    for (int i = 0; i < 3; ++i) {
+      const double z = vertex_[i].z;
+      const Vertex &j = edge_[i].from, &k = edge_[i].to;
+      along_x.add_product(static_cast<double>(j.y) * k.w, z);
+      along_x.add_product(-(static_cast<double>(j.w) * k.y), z);
+      along_y.add_product(static_cast<double>(j.w) * k.x, z);
+      along_y.add_product(-(static_cast<double>(j.x) * k.w), z);
+    }
+    for (Expansion<12>* slope : {&along_x, &along_y}) {
+      if (slope->sign() * determinant_sign_ < 0) slope->negate();
+    }
+    Expansion<24> difference(along_x);
+    difference.add_scaled(along_y, -1);
+    return difference.sign() * determinant_sign_ > 0 ? along_x : along_y;
+  }
+
+  // z(p) (I1), and a bound of its error. D is not 0.
+  Approximation approximate_depth(SamplePosition p) {
+    Approximation e[3];
+    evaluate_edges(p, e);
+    return quotient(weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, e), approximate_determinant());
   }
 
   // The sign of z(p) - bound, exactly, for a bound of 0 or 1. D is not 0.
@@ -961,10 +961,17 @@ class Triangle {
     return {determinant_estimate_, std::fabs(determinant_estimate_) * 0x1p-50};
   }
 
-  Approximation approximate_depth(SamplePosition p) {
-    Approximation e[3];
-    evaluate_edges(p, e);
-    return quotient(weighted_sum({vertex_[0].z, vertex_[1].z, vertex_[2].z}, e), approximate_determinant());
+  // I8's m: the larger one of two is as near to the truth as they are.
+  Approximation approximate_slope() {
+    Approximation a[3], b[3];
+    for (int i = 0; i < 3; ++i) {  // rounded once
+      a[i] = {edge_[i].a, std::fabs(edge_[i].a) * 0x1p-52};
+      b[i] = {edge_[i].b, std::fabs(edge_[i].b) * 0x1p-52};
+    }
+    const double z[3] = {vertex_[0].z, vertex_[1].z, vertex_[2].z};
+    const Approximation x = quotient(weighted_sum(z, a), approximate_determinant());
+    const Approximation y = quotient(weighted_sum(z, b), approximate_determinant());
+    return {std::max(std::fabs(x.value), std::fabs(y.value)), std::max(x.error, y.error)};
   }
 
   float rounded_depth(SamplePosition p, Approximation q, Rungs* rungs = nullptr) {
@@ -1026,22 +1033,23 @@ class Triangle {
 
 namespace surefill_reference {
 
-constexpr double kGuardBand = kMaxTargetSize + 1;  // g of G1: |X| <= g W and |Y| <= g W
+constexpr double kGuardBand = kMaxTargetSize + 1;  // g of G1: |X - ox W| <= g W and |Y - oy W| <= g W
 
-// An estimate of a coordinate in units of the grid, |t| < 2^27, is a rounded value's neighbour only within this.
-inline double snap_error() {
-  return 0x1p-21;
+// An estimate of a coordinate in units of the grid is a rounded value's neighbour only within this: |t| < 2^27, or, with
+// an origin, 2^35.
+inline double snap_error(bool with_origin = false) {
+  return with_origin ? 0x1p-13 : 0x1p-21;
 }
 
 // c / w, which lies in [-g, g], rounded to the grid as G1 says: a position in pixels. w > 0.
 double snapped_position(float c, float w, int offset, const Grid& grid, Rungs* rungs = nullptr);
 
 // A corner of the clipped triangle: homogeneous coordinates, exact, W > 0 once all four planes have been applied. Sums
-// of four products of a float32 or a 39-bit difference of floats by a float32, so at most eight terms.
+// of four products of a float32 or a 47-bit product of a float by a float32, so at most eight terms.
 struct GuardCorner {
   Expansion<8> x, y, z, w;
-  int guard_x = 0, guard_y = 0;  // not both 0: the corner (guard_x g, guard_y g) of the band itself; x, y, w say so, z
-                                 // is not set, for there Z/W is I1
+  int guard_x = 0, guard_y = 0;  // not both 0: the corner (ox + guard_x g, oy + guard_y g) of the band itself; x, y, w
+                                 // say so, z is not set, for there Z/W is I1
   int line = 0;  // which line leads to the next corner: 0..2 the triangle's edge i, 3 + p the guard plane p
 };
 
@@ -1060,15 +1068,24 @@ struct DepthRange {
 // Does the hull of a triangle's vertices contain the eye, where D = 0 (G1)?
 bool hull_contains_eye(const Triangle& triangle);
 
+// An exact depth: Z/W of a corner, or I1. The denominator is not 0.
+struct DepthFraction {
+  Expansion<60> numerator;
+  Expansion<12> denominator;
+};
+
 class SnappedTriangle {
  public:
-  // False if the triangle's hull contains the eye (G1). Vertices are finite (B1). The grid is valid.
-  bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs = nullptr);
+  // False if the triangle's hull contains the eye (G1). Vertices are finite (B1). The grid is valid. Places are in space
+  // whatever the origin (S6), which is where the guard band lies.
+  bool set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs = nullptr,
+              Origin origin = {});
 
   // The clipped polygon on the grid: positions in pixels, exact.
   int corners() const { return polygon_.corners; }
   SamplePosition corner(int n) const {
-    return {static_cast<double>(point_[n].x) / units_per_pixel_, static_cast<double>(point_[n].y) / units_per_pixel_};
+    return {static_cast<double>(point_[n].x) / units_per_pixel_ + origin_.x,
+            static_cast<double>(point_[n].y) / units_per_pixel_ + origin_.y};
   }
   // What depth is clamped to (G2).
   const DepthRange& depth_range() {
@@ -1087,8 +1104,8 @@ class SnappedTriangle {
     return winding(triangle, 3, p, shift) != 0;
   }
 
-  // Depth at p as G2 and I4 have it; false if depth clipping removes the fragment (I5).
-  bool depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs = nullptr);
+  // Depth at p as G2, I8 and I4 have it; false if depth clipping removes the fragment (I5).
+  bool depth(SamplePosition p, const DrawState& state, float* stored, Rungs* rungs = nullptr);
 
   // Does an E_i count at p (G2)? If not, or if D = 0, the values at p are those of vertex 0.
   bool has_weights(SamplePosition p, Rungs* rungs = nullptr) const { return triangle_.right_edges(p, rungs) != 0; }
@@ -1099,15 +1116,19 @@ class SnappedTriangle {
   }
 
  private:
-  // In units of 2^-(bits + 4) pixels, in which grid positions and samples are integers. Below 2^30 + 2^17 in magnitude.
+  // In units of 2^-(bits + 4) pixels from the origin, in which grid positions and samples are integers. Below 2^30 +
+  // 2^17 in magnitude.
   struct Point {
     std::int64_t x, y;
   };
 
   int winding(const Point* corner, int corners, SamplePosition p, TieShift shift) const;
   void know_depth_range();
+  DepthFraction corner_depth(int n);
+  float biased_depth(SamplePosition p, const DepthBias& bias, Rungs* rungs);
 
   Triangle triangle_;  // unsnapped
+  Origin origin_;
   GuardPolygon polygon_;
   Point point_[7];  // the corners of polygon_, snapped
   double units_per_pixel_ = 1;
@@ -1130,13 +1151,17 @@ namespace surefill_reference {
 // The sign of D of a triangle (C1).
 int orientation(const Draw& draw, std::uint32_t position, Rungs* rungs = nullptr);
 
-// Does the triangle, whose D is 0, cover nothing? Under Grid it does not always (G1).
+// Does the triangle, whose D is 0, cover nothing? Under Grid it does not always (G1), and where it is asked for the
+// pixels that it touches (M4b).
 bool is_degenerate(const Draw& draw, std::uint32_t position);
 
 class ExactDraw {
  public:
-  // The triangle at a position in the draw, whose vertices are finite (B1). False if it covers nothing by C1 or, under
-  // Grid, by G1. Everything below is about it.
+  // Pixels and places are those of space; the origin is the target's (S6), which Grid alone looks at.
+  explicit ExactDraw(Origin origin = {}) : origin_(origin) {}
+
+  // The triangle at a position in the draw, whose vertices are finite (B1). False if it covers nothing by C1 (but for
+  // M4b) or, under Grid, by G1. Everything below is about it.
   bool use(const Draw& draw, std::uint32_t position, Rungs* rungs = nullptr);
 
   // The pixels of `limits` that it can cover. Sample offsets within a pixel lie in [least_offset, largest_offset].
@@ -1149,7 +1174,11 @@ class ExactDraw {
     const int side = facing(p, shift, rungs);
     return side != 0 && !culls(*draw_, side);
   }
-  bool draws_square(int x, int y, Rungs* rungs = nullptr) const;  // M4
+  bool draws_square(int x, int y, Rungs* rungs = nullptr) const;  // M4, M4a, M4b
+  // Does it face front there, where it draws (F1; under Grid G1)?
+  bool is_front(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const {
+    return faces_front(*draw_, facing(p, shift, rungs));
+  }
 
   // Depth as it is stored; false if depth clipping removes the fragment: I1, I5; under Grid G2.
   bool depth(SamplePosition p, float* stored, Rungs* rungs = nullptr);
@@ -1169,6 +1198,7 @@ class ExactDraw {
     return triangle_.covers(p, shift, rungs) ? triangle_.determinant() : 0;
   }
 
+  Origin origin_;
   const Draw* draw_ = nullptr;
   std::uint32_t position_ = 0;
   bool covers_something_ = false;
@@ -1178,10 +1208,130 @@ class ExactDraw {
 
 }  // namespace surefill_reference
 
+// ---------------------------------------------------------------- src/fragments.hpp
+//
+// What becomes of a sample that a triangle covers, by scalar exact arithmetic: counts, winding, numbers of triangles, the
+// index of conservative frames, and the layers of those that are seen. Who covers is found out elsewhere: by the reference
+// path, sample by sample, or by the fast path's stream of coverage.
+
+
+
+namespace surefill_reference {
+
+// A covered sample: the triangle, by its position in the draw, the pixel of the target, the number of the sample and,
+// where somebody looks at depth, what is stored of it.
+struct Fragment {
+  std::uint32_t position;
+  int x, y, n;
+  float z = 0;
+};
+
+// Who is seen at the samples of a frame, layer by layer (V4). Element n total + s is layer n of sample s. An empty place
+// has no draw; its depth is the initial one (V1).
+class Layers {
+ public:
+  static constexpr std::uint32_t kNoDraw = 0xFFFFFFFFu;
+
+  // False where memory is lacking.
+  bool allocate(const Target& target);
+
+  std::size_t size() const { return layers_ * total_; }
+  std::size_t total() const { return total_; }
+  float depth(std::size_t place) const { return depth_[place]; }
+  std::uint32_t draw(std::size_t place) const { return draw_[place]; }
+  std::uint32_t position(std::size_t place) const { return position_[place]; }
+
+  void put(std::size_t place, std::uint32_t draw, std::uint32_t position) {
+    draw_[place] = draw, position_[place] = position;
+  }
+  // Puts a fragment into a place; what was there, and behind it, moves one layer back.
+  void insert(std::size_t place, std::uint32_t draw, std::uint32_t position, float z);
+
+ private:
+  std::size_t total_ = 0, layers_ = 1;
+  float* depth_ = nullptr;
+  std::unique_ptr<float[]> own_depth_;
+  std::unique_ptr<std::uint32_t[]> draw_, position_;
+};
+
+// The fragments of one draw, whose triangles come in order at each sample. Of one thread; several may work on different
+// samples of a draw.
+class DrawFragments {
+ public:
+  // `layers` is null if nobody looks at depth.
+  DrawFragments(const Target& target, const Draw& draw, std::uint32_t number, Layers* layers, Rungs& rungs)
+      : target_(target),
+        draw_(draw),
+        number_(number),
+        layers_(layers),
+        rungs_(rungs),
+        shift_(tie_shift(draw.fill_rule)),
+        triangle_(target.origin) {}
+
+  // The draw's exact triangles, of which one is in use, and its number in the frame.
+  ExactDraw& triangle() { return triangle_; }
+  std::uint32_t number() const { return number_; }
+
+  // M2, of the triangle in use: covered, not culled, and not removed by depth clipping. Finds out the depth, where somebody
+  // looks at it.
+  bool counts(Fragment& f);
+  // What is left of that where M2 but for M4a is known to hold.
+  bool counts_of_covered(Fragment& f);
+  // Counts it, and sees who is in front.
+  void take(const Fragment& f);
+
+  // Writes barycentrics and attributes of a triangle that is seen in pixel (x, y) of the target, to a place of the outputs.
+  void shade(std::uint32_t position, int x, int y, std::size_t place);
+
+ private:
+  SamplePosition place_of(const Fragment& f) const {
+    return place_of_sample(target_, target_.origin.x + f.x, target_.origin.y + f.y, f.n);
+  }
+  void see(const Fragment& f, std::size_t s);
+  bool passes(float z, std::size_t place) const;
+  bool precedes(const Fragment& f, std::size_t place) const;
+  // Of a place that has a triangle of this draw.
+  std::uint32_t index_at(std::size_t place) const { return index_of(draw_, layers_->position(place)); }
+
+  const Target& target_;
+  const Draw& draw_;
+  std::uint32_t number_;
+  Layers* layers_;
+  Rungs& rungs_;
+  TieShift shift_;
+  ExactDraw triangle_;
+};
+
+// A frame before and after its fragments.
+class FragmentFrame {
+ public:
+  FragmentFrame(const Target& target, std::span<const Draw> draws);
+
+  // Memory, and the empty image (V1). False where memory is lacking: then nothing is written.
+  bool begin();
+  // Null if nobody looks at depth.
+  Layers* layers() { return seen_ ? &layers_ : nullptr; }
+  // Writes what the fragments have made: index, barycentrics, attributes, visible numbers.
+  void finish(Rungs& rungs);
+
+ private:
+  void show(std::uint32_t number, Rungs& rungs);
+
+  const Target& target_;
+  std::span<const Draw> draws_;
+  Wanted wanted_;
+  bool visible_ = false, seen_ = false;
+  Layers layers_;
+};
+
+}  // namespace surefill_reference
+
 // ---------------------------------------------------------------- src/exact/conservative.hpp
 //
-// Conservative rasterization (M4): whether the closed square of a pixel meets, or lies in, the closed set T of all real
-// points where no E_i / D is negative. Needs no arithmetic beyond the signs of the E_i at the square's corners.
+// Conservative rasterization (M4, M4a, M4b): whether the closed square of a pixel meets, shares an area with, or lies in
+// the closed set T of all real points where no E_i / D is negative. Needs no arithmetic beyond the signs of the E_i at
+// the square's corners, but for degenerate triangles.
+
 
 
 namespace surefill_reference {
@@ -1209,6 +1359,10 @@ class PixelSquare {
     return true;
   }
 
+  // Overlap, where some W_i > 0. Helly's theorem again, for the open square and the open half-planes {E_i / D > 0}, which
+  // have a common point: near a vertex in front of the eye.
+  bool overlapped() const { return pair_overlaps(0, 1) && pair_overlaps(1, 2) && pair_overlaps(2, 0); }
+
   // Over, where some W_i > 0; where none is, T is empty, and otherwise it is not (a vertex in front of the eye projects
   // into it). Helly's theorem in the plane: the square and the half-planes H_i = {E_i / D >= 0} have a common point if
   // any three of these four convex sets have one. The three half-planes do.
@@ -1228,18 +1382,43 @@ class PixelSquare {
     return false;
   }
 
+  // Do the interiors of H_i, H_j and the square have a common point, j = i + 1 modulo 3? The wedge of both half-planes is
+  // open and unbounded, so if it meets the open square, it meets its border too, and there whole stretches of a side;
+  // and where it meets the border, it meets the square. Along a side E_i and E_j are linear: if no corner lies in both
+  // interiors, one end of the side lies in one of them and the other end in the other. At a corner where E_i = 0 and E_j
+  // > 0 next to one with E_i > 0, the stretch begins at once; otherwise it ends where E_i = 0, and E_j must be positive
+  // there.
+  bool pair_overlaps(int i, int j) const {
+    for (int c = 0; c < 4; ++c) {
+      if (sign_[i][c] > 0 && sign_[j][c] > 0) return true;
+    }
+    for (int side = 0; side < 4; ++side) {
+      const int p = side, q = (side + 1) % 4;
+      for (const auto& [here, next] : {std::pair(p, q), std::pair(q, p)}) {
+        if (sign_[i][here] == 0 && sign_[j][here] > 0 && sign_[i][next] > 0) return true;
+        if (sign_[j][here] == 0 && sign_[i][here] > 0 && sign_[j][next] > 0) return true;
+      }
+      if (crossing_side(i, side) > 0) return true;
+    }
+    return false;
+  }
+
   // Does line i cross the side from corner p to corner q between them, at a point of H_j, j = i + 1 and k = i + 2?
   //
   // The point is |E_i(q)| p + |E_i(p)| q. E_i has opposite signs at p and q, so the value of E_j there is the sign of
   // E_i(p) times E_i(p) E_j(q) - E_i(q) E_j(p), up to a positive factor. That difference is D m_k . (p x q), because
   // (m_j x m_k) x (m_k x m_i) = D m_k. So E_j / D has the sign of E_i(p) m_k . (p x q).
-  bool crossing_is_inside(int i, int side) const {
-    const int at_p = sign_[i][side], at_q = sign_[i][(side + 1) % 4];
-    return at_p * at_q < 0 && at_p * triangle_.determinant() * vertex_side((i + 2) % 3, side) >= 0;
+  bool crossing_is_inside(int i, int side) const { return crosses(i, side) && crossing_side(i, side) >= 0; }
+
+  bool crosses(int i, int side) const { return sign_[i][side] * sign_[i][(side + 1) % 4] < 0; }
+
+  // The sign of E_j / D where line i crosses the side; 0 too if it does not.
+  int crossing_side(int i, int side) const {
+    return crosses(i, side) ? sign_[i][side] * triangle_.determinant() * vertex_side((i + 2) % 3, side) : 0;
   }
 
   // The sign of m_k . (p x q) for the corners p and q of a side: W_k times the distance of vertex k from the side's
-  // line, inwards. Both sides of each comparison are exact: 24 bits, and 24 by 15 bits.
+  // line, inwards. Both sides of each comparison are exact: 24 bits, and 24 by 23 bits.
   int vertex_side(int k, int side) const {
     const Vertex& v = triangle_.vertex(k);
     const double x = v.x, y = v.y, w = v.w;
@@ -1260,6 +1439,170 @@ class PixelSquare {
   const Triangle& triangle_;
   double x_, y_;
   int sign_[3][4];  // of E_i / D at the corners: top left, top right, bottom right, bottom left
+};
+
+// M4b for D = 0: does the S (M7) of an edge of the triangle, a single point too, meet the closed square of pixel (x, y)?
+//
+// A point l_0 m_0 + l_1 m_1 in front of the eye lies in the square if none of the four linear functions X - x W, (x + 1)
+// W - X, Y - y W, (y + 1) W - Y is negative there; the first two sum to W. The l >= 0 for which that is so are a cone,
+// whose extreme rays are among those of the two vertices and those where one function is 0. W is linear, so if it is
+// positive anywhere in the cone, it is on an extreme ray.
+inline bool degenerate_touches(const Triangle& triangle, int x, int y) {
+  constexpr int kSides = 4;
+  const auto sides_at = [&](const Vertex& v, Expansion<2>(&value)[kSides]) {
+    const double left = x, top = y, vx = v.x, vy = v.y, w = v.w;  // the products have 24 and 23 bits
+    value[0].add(vx), value[0].add(-(left * w));
+    value[1].add((left + 1) * w), value[1].add(-vx);
+    value[2].add(vy), value[2].add(-(top * w));
+    value[3].add((top + 1) * w), value[3].add(-vy);
+  };
+  for (int edge = 0; edge < 3; ++edge) {
+    Expansion<2> at_from[kSides], at_to[kSides];
+    sides_at(triangle.edge(edge).from, at_from), sides_at(triangle.edge(edge).to, at_to);
+    // Is l_0 from + l_1 to a point of the square?
+    const auto inside = [&](const Expansion<2>& l0, const Expansion<2>& l1) {
+      int least = 1, across = -1;
+      for (int side = 0; side < kSides; ++side) {
+        Expansion<16> sum;
+        sum.add_product_of(at_from[side], l0), sum.add_product_of(at_to[side], l1);
+        least = std::min(least, sum.sign());
+        if (side < 2) across = std::max(across, sum.sign());
+      }
+      return least >= 0 && across > 0;
+    };
+    Expansion<2> zero, one;
+    one.add(1);
+    if (inside(one, zero) || inside(zero, one)) return true;
+    for (int side = 0; side < kSides; ++side) {
+      Expansion<2> l0 = at_to[side], l1 = at_from[side];
+      if (l0.sign() * l1.sign() >= 0) continue;
+      (l0.sign() < 0 ? l0 : l1).negate();
+      if (inside(l0, l1)) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/reference.hpp
+//
+// The scalar reference path: plain portable C++, one triangle and one sample at a time. It is what the fast path is
+// held to.
+
+
+
+namespace surefill_reference::reference {
+
+// As surefill_reference::render, for arguments that validate() has accepted, with the floating-point state already set. Returns
+// ok or out_of_memory.
+Status render(const Target& target, std::span<const Draw> draws, Rungs& rungs) noexcept;
+
+// The fragments of one draw, onto what the draws before it have left.
+void draw(const Target& target, const Draw& draw, std::uint32_t number, Layers* layers, Rungs& rungs) noexcept;
+
+// As surefill_reference::visit_coverage, in the same way. Returns ok.
+Status visit_coverage(const Target& target, std::span<const Draw> draws, const CoverageVisitor& visitor,
+                      Rungs& rungs) noexcept;
+
+}  // namespace surefill_reference::reference
+
+// ---------------------------------------------------------------- src/statistics.hpp
+namespace surefill_reference {
+
+// M11: of draws that validate() has accepted, with the floating-point state already set. No path has a part in it.
+Statistics statistics_of(std::span<const Draw> draws) noexcept;
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/streamed.hpp
+//
+// Frames whose coverage is the fast path's and whose fragments are the reference path's: those that ask for layers,
+// winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlapped or touched pixels, or the index of conservative draws.
+
+
+
+namespace surefill_reference::streamed {
+
+// Can the fast path stream the coverage of such a frame?
+bool supports(const Target& target, std::span<const Draw> draws);
+
+// As reference::render, with the threads and the memory of the options.
+Status render(const Target& target, std::span<const Draw> draws, const Options& options,
+              Diagnostics& diagnostics) noexcept;
+
+}  // namespace surefill_reference::streamed
+
+// ---------------------------------------------------------------- src/overlap.hpp
+//
+// Which memory a call writes, and whether that overlaps what it reads (B2).
+
+
+
+namespace surefill_reference {
+
+struct Bytes {
+  std::uint64_t begin = 0, end = 0;  // in 64 bits: memory may end where the addresses do
+
+  Bytes() = default;
+  Bytes(const void* data, std::uint64_t size) : begin(reinterpret_cast<std::uintptr_t>(data)), end(begin + size) {}
+  template <typename T>
+  explicit Bytes(std::span<T> s) : Bytes(s.data(), s.size() * std::uint64_t{sizeof(T)}) {}
+  // Of one object, which may be null.
+  template <typename T>
+  static Bytes of(const T* object) {
+    return {object, object == nullptr ? 0 : sizeof(T)};
+  }
+
+  bool empty() const { return begin == end; }
+  // Do they share a byte? Empty ones share none.
+  bool overlaps(const Bytes& other) const {
+    return begin < end && other.begin < other.end && begin < other.end && other.begin < end;
+  }
+};
+
+// The memory that a call writes.
+class Outputs {
+ public:
+  // False if it overlaps what was there before.
+  bool add(const Bytes& bytes) {
+    if (touched_by(bytes)) return false;
+    bytes_[count_++] = bytes;
+    return true;
+  }
+
+  // All buffers of a target; false if they overlap. A list of attributes that is null or too long is not read.
+  bool add_buffers(const Target& target) {
+    bool apart = add(Bytes(target.count)) && add(Bytes(target.index)) && add(Bytes(target.depth)) &&
+                 add(Bytes(target.barycentrics)) && add(Bytes(target.winding));
+    if (target.attributes.data() == nullptr || target.attributes.size() > kMaxAttributes) return apart;
+    for (const AttributeTarget& attribute : target.attributes) apart = apart && add(Bytes(attribute.values));
+    return apart;
+  }
+
+  // The numbers of the draws' triangles (M10), where one asks for them. The list stays where it is.
+  void add_numbers(std::span<const Draw> draws) {
+    for (const Draw& draw : draws) {
+      if (!draw.covered.empty() || !draw.visible.empty()) draws_ = draws;
+    }
+  }
+  bool has_numbers() const { return !draws_.empty(); }
+
+  bool touched_by(const Bytes& bytes) const {
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (bytes_[i].overlaps(bytes)) return true;
+    }
+    for (const Draw& draw : draws_) {
+      if (Bytes(draw.covered).overlaps(bytes) || Bytes(draw.visible).overlaps(bytes)) return true;
+    }
+    return false;
+  }
+
+ private:
+  static constexpr std::size_t kMost = 7 + kMaxAttributes;  // five buffers, the attributes, statistics, diagnostics
+  Bytes bytes_[kMost];
+  std::size_t count_ = 0;
+  std::span<const Draw> draws_;  // those with numbers, or none
 };
 
 }  // namespace surefill_reference
@@ -1293,9 +1636,635 @@ bool is_exact_build() {
 
 }  // namespace surefill_reference
 
+// ---------------------------------------------------------------- src/exact/grid.cpp
+namespace surefill_reference {
+namespace {
+
+// The planes of the guard band: gW - X, gW + X, gW - Y, gW + Y, in the order in which they clip. Positive is inside.
+constexpr int kPlanes = 4;
+constexpr bool bounds_x(int plane) {
+  return plane < 2;
+}
+constexpr double outwards(int plane) {
+  return plane % 2 == 0 ? 1 : -1;
+}
+
+// Where the band ends at a plane, counted outwards: a whole number of 23 bits.
+double limit_of(int plane, Origin origin) {
+  return kGuardBand + outwards(plane) * (bounds_x(plane) ? origin.x : origin.y);
+}
+
+// A plane's function at a vertex of the triangle: 47 and 24 bits.
+Expansion<2> plane_value(int plane, const Vertex& v, Origin origin) {
+  Expansion<2> sum;
+  sum.add(limit_of(plane, origin) * static_cast<double>(v.w));
+  sum.add(-outwards(plane) * static_cast<double>(bounds_x(plane) ? v.x : v.y));
+  return sum;
+}
+
+bool inside_guard_band(const Vertex& v, Origin origin) {
+  for (int plane = 0; plane < kPlanes; ++plane) {
+    const double coordinate = bounds_x(plane) ? v.x : v.y;
+    if (!(outwards(plane) * coordinate <= limit_of(plane, origin) * static_cast<double>(v.w))) return false;
+  }
+  return true;
+}
+
+int plane_sign(int plane, const GuardCorner& corner, Origin origin) {
+  Expansion<32> sum;
+  sum.add_scaled(corner.w, limit_of(plane, origin));
+  sum.add_scaled(bounds_x(plane) ? corner.x : corner.y, -outwards(plane));
+  return sum.sign();
+}
+
+GuardCorner vertex_corner(const Vertex& v, int line) {
+  GuardCorner corner;
+  corner.x.add(v.x), corner.y.add(v.y), corner.z.add(v.z), corner.w.add(v.w);
+  corner.line = line;
+  return corner;
+}
+
+// Where a plane cuts the edge from a to b, from these end points alone: |f(b)| a + |f(a)| b, which is the same real
+// point for either order. f(a) and f(b) have opposite signs.
+GuardCorner edge_corner(int plane, const Vertex& a, const Vertex& b, Origin origin) {
+  const Expansion<2> fa = plane_value(plane, a, origin), fb = plane_value(plane, b, origin);
+  const auto mean = [&](double at_a, double at_b) {
+    Expansion<8> sum;
+    sum.add_scaled(fb, fb.sign() * at_a);
+    sum.add_scaled(fa, fa.sign() * at_b);
+    return sum;
+  };
+  GuardCorner corner;
+  corner.x = mean(a.x, b.x), corner.y = mean(a.y, b.y), corner.z = mean(a.z, b.z), corner.w = mean(a.w, b.w);
+  return corner;
+}
+
+// The sign of the sum of the E_i at the direction (0, 1, 0), which is b_0 + b_1 + b_2.
+int sign_of_b_sum(const Triangle& triangle) {
+  Expansion<6> sum;
+  for (int i = 0; i < 3; ++i) {
+    const EdgeFunction& edge = triangle.edge(i);
+    const double jx = edge.from.x, jw = edge.from.w, kx = edge.to.x, kw = edge.to.w;
+    sum.add(jw * kx);  // 48 bits, exact
+    sum.add(-(jx * kw));
+  }
+  return sum.sign();
+}
+
+// Where two planes of the band meet in the triangle's interior; `first` clipped before `second`. D is not 0: a plane
+// through the eye meets a guard plane in a line through the eye, and the part of that line within a hull without the
+// eye lies on one side of every other guard plane.
+//
+// An X plane and a Y plane: both X planes have been applied by then, so W >= 0, and 0 only at the eye; the point is
+// (ox +- g, oy +- g, 1) times a positive number.
+//
+// The two X planes: the point is (0, 1, 0) times l, where the weights l E_i / D of the vertices sum to 1, so l has the
+// sign of D times that of the sum of the E_i at (0, 1, 0). It lies outside of a Y plane, and so is gone in the end.
+GuardCorner band_corner(int first, int second, const Triangle& triangle, Origin origin) {
+  GuardCorner corner;
+  if (!bounds_x(second)) {
+    corner.guard_x = outwards(first) > 0 ? 1 : -1;
+    corner.guard_y = outwards(second) > 0 ? 1 : -1;
+    corner.x.add(origin.x + kGuardBand * corner.guard_x), corner.y.add(origin.y + kGuardBand * corner.guard_y);
+    corner.w.add(1);
+  } else {
+    corner.y.add(triangle.determinant() * sign_of_b_sum(triangle));
+  }
+  return corner;
+}
+
+// Where a plane cuts the line that leads from `corner` to the next one.
+GuardCorner cut(const GuardCorner& corner, int plane, const Triangle& triangle, Origin origin) {
+  if (corner.line >= 3) return band_corner(corner.line - 3, plane, triangle, origin);
+  return edge_corner(plane, triangle.edge(corner.line).from, triangle.edge(corner.line).to, origin);
+}
+
+// Sutherland and Hodgman 1974, against one plane. A corner on the plane stays and is not cut again.
+void clip(const GuardPolygon& in, int plane, const Triangle& triangle, Origin origin, GuardPolygon* out) {
+  int sign[7];
+  for (int n = 0; n < in.corners; ++n) sign[n] = plane_sign(plane, in.corner[n], origin);
+  out->corners = 0;
+  for (int n = 0; n < in.corners; ++n) {
+    const GuardCorner& corner = in.corner[n];
+    const int here = sign[n], next = sign[(n + 1) % in.corners];
+    if (here >= 0) {
+      GuardCorner& kept = out->corner[out->corners++] = corner;
+      if (here == 0 && next < 0) kept.line = 3 + plane;
+    }
+    if (here * next < 0) {
+      GuardCorner& added = out->corner[out->corners++] = cut(corner, plane, triangle, origin);
+      added.line = here > 0 ? 3 + plane : corner.line;
+    }
+  }
+}
+
+// G1. The hull of the triangle does not contain the eye.
+void clip_to_guard_band(const Triangle& triangle, Origin origin, GuardPolygon* polygon) {
+  polygon->corners = 0;
+  bool inside = true;
+  for (int i = 0; i < 3; ++i) {  // the line from vertex i to vertex i + 1 is the edge opposite vertex i + 2
+    polygon->corner[polygon->corners++] = vertex_corner(triangle.vertex(i), (i + 2) % 3);
+    inside = inside && inside_guard_band(triangle.vertex(i), origin);
+  }
+  if (inside) return;
+  GuardPolygon other;
+  static_assert(kPlanes % 2 == 0, "the last result stands in *polygon");
+  for (int plane = 0; plane < kPlanes; plane += 2) {
+    clip(*polygon, plane, triangle, origin, &other);
+    clip(other, plane + 1, triangle, origin, polygon);
+  }
+}
+
+// k for t = (numerator / denominator - offset 2^-(bits + 4)) 2^bits, by its floor and by where t lies above it.
+double round_to_integer(double floor_of_t, int above_floor, int above_half, GridRounding rounding) {
+  const double up = floor_of_t + 1;
+  switch (rounding) {
+    case GridRounding::nearest_even:
+      if (above_half != 0) return above_half > 0 ? up : floor_of_t;
+      return std::fmod(floor_of_t, 2) == 0 ? floor_of_t : up;
+    case GridRounding::nearest_up:
+      return above_half >= 0 ? up : floor_of_t;
+    case GridRounding::truncate:
+      return floor_of_t < 0 && above_floor > 0 ? up : floor_of_t;
+  }
+  return floor_of_t;
+}
+
+// The grid position of a coordinate numerator / denominator, which lies within g of the origin, in units of 2^-(bits + 4)
+// pixels from there; `offset` is in these units.
+std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator, int offset, const Grid& grid,
+                  Rungs* rungs, int origin = 0) {
+  const double scale = 1 << grid.bits;
+  const auto compare = [&](double twice) {  // the sign of t - twice / 2; all factors are exact
+    Expansion<32> rest;
+    rest.add_scaled(numerator, 2 * scale);
+    rest.add_scaled(denominator, -(twice + offset / 8.0));
+    return rest.sign();
+  };
+  // The estimates, the division and the difference have relative errors below 2^-48 together.
+  const double error = snap_error(origin != 0);
+  const double estimate = numerator.estimate() / denominator.estimate() * scale - offset / 16.0;
+  double floor_of_t = std::floor(estimate);
+  const double fraction = estimate - floor_of_t;  // exact
+  int above_floor = 1, above_half = fraction > 0.5 ? 1 : -1;
+  if (fraction > error && fraction < 1 - error && std::fabs(fraction - 0.5) > error) {
+    count(rungs, &Rungs::values_by_filter);
+  } else {
+    count(rungs, &Rungs::values_by_expansion);
+    if (compare(2 * floor_of_t) < 0) {
+      floor_of_t -= 1;
+    } else if (compare(2 * floor_of_t + 2) >= 0) {
+      floor_of_t += 1;
+    }
+    above_floor = compare(2 * floor_of_t);
+    above_half = compare(2 * floor_of_t + 1);
+  }
+  const double k = round_to_integer(floor_of_t, above_floor, above_half, grid.rounding);
+  return 16 * (static_cast<std::int64_t>(k) - std::int64_t{origin} * (1 << grid.bits)) + offset;
+}
+
+// Widens a range by z / w; an empty range has low > high. Rounding is monotonic, so the rounded ends are those of the
+// exact range.
+template <std::size_t kZ, std::size_t kW>
+void widen(const Expansion<kZ>& z, const Expansion<kW>& w, DepthRange* range) {
+  Expansion<kZ + kW> above_one;
+  for (int i = 0; i < z.size(); ++i) above_one.add(z.term(i));
+  for (int i = 0; i < w.size(); ++i) above_one.add(-w.term(i));
+  const bool below_zero = z.sign() * w.sign()<0, is_above_one = above_one.sign() * w.sign()> 0;
+  const float rounded = round_quotient(z, w);
+  range->low = std::min(range->low, rounded);
+  range->high = std::max(range->high, rounded);
+  range->low_below_zero = range->low_below_zero || below_zero;
+  range->high_below_zero = range->high_below_zero && below_zero;
+  range->low_above_one = range->low_above_one && is_above_one;
+  range->high_above_one = range->high_above_one || is_above_one;
+}
+
+// The sign of a - b.
+int compare(const DepthFraction& a, const DepthFraction& b) {
+  Expansion<1440> left;
+  Expansion<2880> difference;
+  left.add_product_of(b.numerator, a.denominator);
+  difference.add_product_of(a.numerator, b.denominator);
+  for (int i = 0; i < left.size(); ++i) difference.add(-left.term(i));
+  return difference.sign() * a.denominator.sign() * b.denominator.sign();
+}
+
+}  // namespace
+
+// If a product m_j x m_k is not 0, the three are multiples of one normal, and the weights l with l_0 m_0 + l_1 m_1 +
+// l_2 m_2 = 0 are those multiples, up to a factor: the signs of any component of the products that is not 0 throughout
+// tell. Else the three vectors are multiples of one direction (or 0), and the hull misses 0 exactly if they are
+// positive multiples of one of them: if a coordinate has one sign, other than 0, in all three.
+bool hull_contains_eye(const Triangle& triangle) {
+  const EdgeFunction &e0 = triangle.edge(0), &e1 = triangle.edge(1), &e2 = triangle.edge(2);
+  const double products[3][3] = {{e0.a, e1.a, e2.a}, {e0.b, e1.b, e2.b}, {e0.c, e1.c, e2.c}};
+  for (const auto& l : products) {
+    const auto [low, high] = std::minmax({l[0], l[1], l[2]});  // their signs are exact
+    if (low != 0 || high != 0) return low >= 0 || high <= 0;
+  }
+  const Vertex &v0 = triangle.vertex(0), &v1 = triangle.vertex(1), &v2 = triangle.vertex(2);
+  const auto one_sign = [](float a, float b, float c) {
+    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+  };
+  return !one_sign(v0.x, v1.x, v2.x) && !one_sign(v0.y, v1.y, v2.y) && !one_sign(v0.w, v1.w, v2.w);
+}
+
+double snapped_position(float c, float w, int offset, const Grid& grid, Rungs* rungs) {
+  Expansion<8> numerator, denominator;
+  numerator.add(c), denominator.add(w);
+  return static_cast<double>(snap(numerator, denominator, offset, grid, rungs)) / (16 << grid.bits);
+}
+
+bool SnappedTriangle::set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs,
+                             Origin origin) {
+  depth_range_known_ = false;
+  origin_ = origin;
+  if (!triangle_.set_up(v0, v1, v2, rungs) && hull_contains_eye(triangle_)) return false;
+  clip_to_guard_band(triangle_, origin, &polygon_);
+  for (int n = 0; n < polygon_.corners; ++n) {
+    const GuardCorner& corner = polygon_.corner[n];
+    point_[n] = {snap(corner.x, corner.w, grid.offset_x, grid, rungs, origin.x),
+                 snap(corner.y, corner.w, grid.offset_y, grid, rungs, origin.y)};
+  }
+  units_per_pixel_ = 1 << (grid.bits + 4);
+  return true;
+}
+
+PixelBox SnappedTriangle::box(PixelBox limits, double least_offset, double largest_offset) const {
+  if (polygon_.corners == 0) return {0, 0, 0, 0};
+  Point low = point_[0], high = point_[0];
+  for (int n = 1; n < polygon_.corners; ++n) {
+    low = {std::min(low.x, point_[n].x), std::min(low.y, point_[n].y)};
+    high = {std::max(high.x, point_[n].x), std::max(high.y, point_[n].y)};
+  }
+  const auto pixels = [this](std::int64_t units) { return static_cast<double>(units) / units_per_pixel_; };  // exact
+  const double ox = origin_.x, oy = origin_.y;
+  clip_to_reach({pixels(low.x) + ox, pixels(high.x) + ox}, least_offset, largest_offset, &limits.x0, &limits.x1);
+  clip_to_reach({pixels(low.y) + oy, pixels(high.y) + oy}, least_offset, largest_offset, &limits.y0, &limits.y1);
+  return limits;
+}
+
+// Edges that cross the ray from the perturbed sample towards +x, with their direction. Differences of coordinates are
+// below 2^31 + 2^18 in magnitude and their products below 2^63; these are compared and not subtracted.
+int SnappedTriangle::winding(const Point* corner, int corners, SamplePosition p, TieShift shift) const {
+  const auto px = static_cast<std::int64_t>((p.x - origin_.x) * units_per_pixel_);
+  const auto py = static_cast<std::int64_t>((p.y - origin_.y) * units_per_pixel_);
+  const auto beyond = [&](const Point& a) { return a.y > py || (a.y == py && shift.y < 0); };  // y above the sample's
+  int sum = 0;
+  for (int n = 0; n < corners; ++n) {
+    const Point &from = corner[n], &to = corner[n + 1 < corners ? n + 1 : 0];
+    if (beyond(from) == beyond(to)) continue;
+    const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
+    const std::int64_t left = dx * (py - from.y), right = dy * (px - from.x);  // E(p) = left - right; a = -dy, b = dx
+    int sign = left > right ? 1 : left < right ? -1 : 0;
+    if (sign == 0) sign = tie_sign(-static_cast<double>(dy), static_cast<double>(dx), shift);
+    if (sign == (beyond(to) ? 1 : -1)) sum += sign;
+  }
+  return sum;
+}
+
+bool SnappedTriangle::depth(SamplePosition p, const DrawState& state, float* stored, Rungs* rungs) {
+  const DepthMode mode = state.depth_mode;
+  know_depth_range();
+  const DepthRange& range = depth_range_;
+  const bool flat = triangle_.determinant() == 0;
+  if (mode == DepthMode::clip) {
+    // z clamped to [low, high] is below 0 if high is, or if low and z are; and so for 1.
+    if (range.high_below_zero || range.low_above_one) return false;
+    if (flat && range.low_below_zero) return false;
+    if (!flat && range.low_below_zero && triangle_.compare_depth(p, 0, rungs) < 0) return false;
+    if (!flat && range.high_above_one && triangle_.compare_depth(p, 1, rungs) > 0) return false;
+  }
+  if (state.depth_bias) {
+    *stored = biased_depth(p, *state.depth_bias, rungs);
+  } else {
+    *stored = flat ? range.low : std::clamp(triangle_.rounded_depth(p, rungs), range.low, range.high);
+  }
+  if (mode == DepthMode::clamp) *stored = std::clamp(*stored, 0.0f, 1.0f);  // rounding is monotonic
+  return true;
+}
+
+void SnappedTriangle::know_depth_range() {
+  if (depth_range_known_) return;
+  depth_range_known_ = true;
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  depth_range_ = {kInfinity, -kInfinity, false, true, true, false};
+  for (int n = 0; n < polygon_.corners; ++n) {
+    const DepthFraction z = corner_depth(n);
+    widen(z.numerator, z.denominator, &depth_range_);
+  }
+}
+
+// Z/W of corner n of the polygon.
+DepthFraction SnappedTriangle::corner_depth(int n) {
+  const GuardCorner& corner = polygon_.corner[n];
+  if (corner.guard_x == 0) return {Expansion<60>(corner.z), Expansion<12>(corner.w)};
+  const SamplePosition p{origin_.x + kGuardBand * corner.guard_x, origin_.y + kGuardBand * corner.guard_y};
+  return {triangle_.exact_depth_numerator(p), triangle_.exact_determinant_value()};
+}
+
+// Depth with a bias (I8): the clamped z of G2, without rounding, and then c and s m, whose m is that of the unsnapped
+// plane, and 0 where D is.
+float SnappedTriangle::biased_depth(SamplePosition p, const DepthBias& bias, Rungs* rungs) {
+  const bool flat = triangle_.determinant() == 0;
+  DepthFraction low = corner_depth(0), high = low;
+  for (int n = 1; n < polygon_.corners; ++n) {
+    const DepthFraction z = corner_depth(n);
+    if (compare(z, low) < 0) low = z;
+    if (compare(z, high) > 0) high = z;
+  }
+  DepthFraction z = low;
+  if (!flat) {
+    z = {triangle_.exact_depth_numerator(p), triangle_.exact_determinant_value()};
+    const int below = compare(z, low), above = compare(z, high);
+    if (below >= 0 && above <= 0) return triangle_.biased_depth(p, bias, rungs);
+    z = below < 0 ? low : high;
+  }
+  count(rungs, &Rungs::values_by_expansion);
+  if (flat) {
+    Expansion<84> numerator(z.numerator);
+    numerator.add_scaled(z.denominator, bias.constant);
+    return round_quotient(numerator, z.denominator);
+  }
+  // (z D + c w D + s m D w) / (w D), for z / w the fraction.
+  const Expansion<12>& d = triangle_.exact_determinant_value();
+  Expansion<288> denominator, slope;
+  denominator.add_product_of(z.denominator, d);
+  slope.add_product_of(z.denominator, triangle_.exact_slope_numerator());
+  Expansion<1440 + 2 * 288 + 2 * 288> numerator;
+  numerator.add_product_of(z.numerator, d);
+  numerator.add_scaled(denominator, bias.constant);
+  numerator.add_scaled(slope, bias.slope);
+  return round_quotient(numerator, denominator);
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/exact_draw.cpp
+namespace surefill_reference {
+
+int orientation(const Draw& draw, std::uint32_t position, Rungs* rungs) {
+  const EdgeFunction edge(vertex_of(draw, position, 1), vertex_of(draw, position, 2));
+  return determinant_sign(edge, vertex_of(draw, position, 0), rungs);
+}
+
+bool is_degenerate(const Draw& draw, std::uint32_t position) {
+  if (!draw.grid) return draw.conservative != Conservative::touched;  // M4b
+  Triangle triangle;
+  triangle.set_up(vertex_of(draw, position, 0), vertex_of(draw, position, 1), vertex_of(draw, position, 2));
+  return hull_contains_eye(triangle);
+}
+
+bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
+  if (draw_ == &draw && position_ == position) return covers_something_;
+  draw_ = &draw, position_ = position;
+  const Vertex &v0 = vertex_of(draw, position, 0), &v1 = vertex_of(draw, position, 1),
+               &v2 = vertex_of(draw, position, 2);
+  covers_something_ = draw.grid ? snapped_.set_up(v0, v1, v2, *draw.grid, rungs, origin_)
+                                : triangle_.set_up(v0, v1, v2, rungs) || draw.conservative == Conservative::touched;
+  return covers_something_;
+}
+
+PixelBox ExactDraw::box(const PixelBox& limits, double least_offset, double largest_offset) const {
+  if (draw_->grid) return snapped_.box(limits, least_offset, largest_offset);
+  const bool squares = draw_->conservative != Conservative::none;
+  return screen_box(triangle_.vertex(0), triangle_.vertex(1), triangle_.vertex(2), limits, squares ? 0 : least_offset,
+                    squares ? 1 : largest_offset);
+}
+
+bool ExactDraw::draws_square(int x, int y, Rungs* rungs) const {
+  if (triangle_.determinant() == 0) return degenerate_touches(triangle_, x, y);
+  const PixelSquare square(triangle_, x, y, rungs);
+  switch (draw_->conservative) {
+    case Conservative::inner:
+      return square.inside();
+    case Conservative::overlap:
+      return square.overlapped();
+    default:
+      return square.touched();
+  }
+}
+
+bool ExactDraw::depth(SamplePosition p, float* stored, Rungs* rungs) {
+  return draw_->grid ? snapped_.depth(p, *draw_, stored, rungs) : triangle_.depth(p, *draw_, stored, rungs);
+}
+
+bool ExactDraw::has_values(SamplePosition p) const {
+  return draw_->grid ? snapped_.has_weights(p) : triangle_.plane_in_front(p);
+}
+
+SamplePosition ExactDraw::place_of_attributes(const Target& target, int x, int y, TieShift shift) const {
+  const SamplePosition centre{x + 0.5, y + 0.5};
+  if (target.samples == 1) return place_of_sample(target, x, y, 0);
+  if (target.attribute_location == AttributeLocation::centre && has_values(centre)) return centre;
+  if (covers(centre, shift)) return centre;
+  for (int n = 0; n < target.samples; ++n) {
+    const SamplePosition p = place_of_sample(target, x, y, n);
+    if (covers(p, shift)) return p;
+  }
+  return centre;  // not reached: the triangle is seen at a sample of this pixel
+}
+
+float ExactDraw::attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs) {
+  return draw_->grid ? snapped_.attribute(p, u, interpolation, rungs) : triangle_.attribute(p, u, interpolation, rungs);
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/fragments.cpp
+namespace surefill_reference {
+
+bool Layers::allocate(const Target& target) {
+  total_ = sample_total(target), layers_ = static_cast<std::size_t>(target.layers);
+  depth_ = target.depth.data();
+  if (target.depth.empty()) {
+    own_depth_.reset(new (std::nothrow) float[size()]);
+    depth_ = own_depth_.get();
+  }
+  draw_.reset(new (std::nothrow) std::uint32_t[size()]);
+  position_.reset(new (std::nothrow) std::uint32_t[size()]);
+  if (depth_ == nullptr || draw_ == nullptr || position_ == nullptr) return false;
+  std::fill(draw_.get(), draw_.get() + size(), kNoDraw);
+  for (float* layer = depth_; layer < depth_ + size(); layer += total_) {
+    if (target.initial_depth.empty()) {
+      std::fill(layer, layer + total_, empty_depth(target.depth_test));
+    } else if (target.initial_depth.data() != layer) {
+      std::memcpy(layer, target.initial_depth.data(), total_ * sizeof(float));
+    }
+  }
+  return true;
+}
+
+void Layers::insert(std::size_t place, std::uint32_t draw, std::uint32_t position, float z) {
+  for (std::size_t to = place % total_ + (layers_ - 1) * total_; to > place; to -= total_) {
+    put(to, draw_[to - total_], position_[to - total_]);
+    depth_[to] = depth_[to - total_];
+  }
+  put(place, draw, position);
+  depth_[place] = z;
+}
+
+bool DrawFragments::counts(Fragment& f) {
+  if (draw_.conservative != Conservative::none) {
+    return triangle_.draws_square(target_.origin.x + f.x, target_.origin.y + f.y, &rungs_);
+  }
+  const SamplePosition p = place_of(f);
+  if (!triangle_.draws(p, shift_, &rungs_)) return false;
+  if (layers_ == nullptr && draw_.depth_mode != DepthMode::clip) return true;
+  return triangle_.depth(p, &f.z, &rungs_);
+}
+
+bool DrawFragments::counts_of_covered(Fragment& f) {
+  if (draw_.conservative == Conservative::overlap) return counts(f);
+  return layers_ == nullptr || triangle_.depth(place_of(f), &f.z, &rungs_);
+}
+
+void DrawFragments::take(const Fragment& f) {
+  const std::size_t s = sample_index(target_, f.x, f.y, static_cast<std::size_t>(f.n));
+  if (!target_.count.empty()) ++target_.count[s];
+  if (!draw_.covered.empty()) {  // the triangle may be met on other threads too
+    std::atomic_ref(draw_.covered[f.position]).fetch_add(1, std::memory_order_relaxed);
+  }
+  if (!target_.winding.empty()) {  // M9, modulo 2^32
+    const std::uint32_t one = triangle_.is_front(place_of(f), shift_, &rungs_) ? 1u : 0xFFFFFFFFu;
+    target_.winding[s] = static_cast<std::int32_t>(static_cast<std::uint32_t>(target_.winding[s]) + one);
+  }
+  if (layers_ != nullptr) {
+    see(f, s);
+  } else if (!target_.index.empty()) {  // M4c: kNoTriangle is larger than any index
+    target_.index[s] = std::min(target_.index[s], index_of(draw_, f.position));
+  }
+}
+
+void DrawFragments::see(const Fragment& f, std::size_t s) {
+  if (!draw_.depth_write) {  // M5: one layer, whose depth stays
+    if (passes(f.z, s) && (layers_->draw(s) != number_ || index_at(s) <= index_of(draw_, f.position))) {
+      layers_->put(s, number_, f.position);
+    }
+    return;
+  }
+  for (std::size_t place = s; place < layers_->size(); place += layers_->total()) {
+    if (!precedes(f, place)) continue;
+    layers_->insert(place, number_, f.position, f.z);
+    return;
+  }
+}
+
+// The depth test (V1, V5).
+bool DrawFragments::passes(float z, std::size_t place) const {
+  const float there = layers_->depth(place);
+  return (is_reversed(target_.depth_test) ? z > there : z < there) || (z == there && takes_equal(target_.depth_test));
+}
+
+// Does the fragment come before what is there (V1 to V5)? Of equal depths in one draw indices decide, and of equal
+// indices positions, in whose order fragments come.
+bool DrawFragments::precedes(const Fragment& f, std::size_t place) const {
+  if (f.z != layers_->depth(place) || layers_->draw(place) != number_) return passes(f.z, place);
+  const std::uint32_t index = index_of(draw_, f.position);
+  return takes_equal(target_.depth_test) ? index >= index_at(place) : index < index_at(place);
+}
+
+void DrawFragments::shade(std::uint32_t position, int x, int y, std::size_t place) {
+  triangle_.use(draw_, position, &rungs_);
+  const SamplePosition p = triangle_.place_of_attributes(target_, target_.origin.x + x, target_.origin.y + y, shift_);
+  if (!target_.barycentrics.empty()) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const float unit[3] = {i == 0 ? 1.0f : 0.0f, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f};
+      target_.barycentrics[3 * place + i] = triangle_.attribute(p, unit, Interpolation::perspective, &rungs_);
+    }
+  }
+  for (std::size_t k = 0; k < target_.attributes.size(); ++k) {
+    const AttributeTarget& out = target_.attributes[k];
+    if (out.values.empty()) continue;
+    const AttributeArray& in = draw_.attributes[k];
+    for (std::size_t c = 0; c < out.components; ++c) {
+      float u[3];
+      for (std::size_t i = 0; i < 3; ++i) u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
+      out.values[place * out.components + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
+    }
+  }
+}
+
+namespace {
+
+// The empty image (V1), without depth.
+void clear(const Target& target) {
+  std::fill(target.count.begin(), target.count.end(), 0u);
+  std::fill(target.winding.begin(), target.winding.end(), 0);
+  std::fill(target.index.begin(), target.index.end(), kNoTriangle);
+  std::fill(target.barycentrics.begin(), target.barycentrics.end(), 0.0f);
+  for (const AttributeTarget& attribute : target.attributes) {
+    std::fill(attribute.values.begin(), attribute.values.end(), 0.0f);
+  }
+}
+
+// Attributes are evaluated once per pixel (M1).
+void copy_shading(const Target& target, std::size_t from, std::size_t to) {
+  if (!target.barycentrics.empty()) {
+    for (std::size_t i = 0; i < 3; ++i) target.barycentrics[3 * to + i] = target.barycentrics[3 * from + i];
+  }
+  for (const AttributeTarget& out : target.attributes) {
+    if (out.values.empty()) continue;
+    for (std::size_t c = 0; c < out.components; ++c) {
+      out.values[to * out.components + c] = out.values[from * out.components + c];
+    }
+  }
+}
+
+}  // namespace
+
+FragmentFrame::FragmentFrame(const Target& target, std::span<const Draw> draws)
+    : target_(target), draws_(draws), wanted_(wanted_outputs(target)) {
+  bool conservative = false;
+  for (const Draw& draw : draws) {
+    conservative = conservative || draw.conservative != Conservative::none;
+    visible_ = visible_ || !draw.visible.empty();
+  }
+  seen_ = !conservative && (wanted_.depth || visible_);  // M4c's index is of nobody that is seen
+}
+
+bool FragmentFrame::begin() {
+  if (seen_ && !layers_.allocate(target_)) return false;
+  clear(target_);
+  for (const Draw& draw : draws_) {
+    std::fill(draw.covered.begin(), draw.covered.end(), 0u);
+    std::fill(draw.visible.begin(), draw.visible.end(), 0u);
+  }
+  return true;
+}
+
+void FragmentFrame::finish(Rungs& rungs) {
+  if (!seen_ || !(wanted_.visibility || visible_)) return;
+  for (std::size_t d = 0; d < draws_.size(); ++d) show(static_cast<std::uint32_t>(d), rungs);
+}
+
+// What one draw shows, once all are drawn.
+void FragmentFrame::show(std::uint32_t number, Rungs& rungs) {
+  const Draw& draw = draws_[number];
+  const auto samples = static_cast<std::size_t>(target_.samples), width = static_cast<std::size_t>(target_.width);
+  DrawFragments fragments(target_, draw, number, nullptr, rungs);
+  for (std::size_t place = 0; place < layers_.size(); ++place) {
+    if (layers_.draw(place) != number) continue;
+    const std::uint32_t position = layers_.position(place);
+    if (place < layers_.total() && !draw.visible.empty()) ++draw.visible[position];
+    if (!target_.index.empty()) target_.index[place] = index_of(draw, position);
+    if (!wanted_.shading) continue;
+    const std::size_t s = place % layers_.total();
+    if (s % samples != 0 && layers_.draw(place - 1) == number && layers_.position(place - 1) == position) {
+      copy_shading(target_, place - 1, place);
+    } else {
+      fragments.shade(position, static_cast<int>(s / samples % width), static_cast<int>(s / samples / width), place);
+    }
+  }
+}
+
+}  // namespace surefill_reference
+
 // ---------------------------------------------------------------- src/surefill.cpp
 //
 // The public calls: check the arguments, set the floating-point state, take the path.
+
 
 
 namespace surefill_reference {
@@ -1329,6 +2298,13 @@ struct CallersCode {
     own.environment.leave_for([&] { own.visitor.visit(own.visitor.context, blocks); });
   }
 };
+
+// Does somebody ask for an output of samples or of triangles?
+bool asks_for_outputs(const Target& target, std::span<const Draw> draws) {
+  const bool numbers = std::any_of(draws.begin(), draws.end(),
+                                   [](const Draw& draw) { return !draw.covered.empty() || !draw.visible.empty(); });
+  return wanted_outputs(target).depth || !target.count.empty() || !target.winding.empty() || numbers;
+}
 
 // Neither is inlined: they need the engine's floating-point state.
 [[gnu::noinline]] Status draw(const Target& target, std::span<const Draw> draws,
@@ -1393,7 +2369,7 @@ Status visit_coverage(const Target& target, std::span<const Draw> draws, const C
                       Statistics* statistics, const Options& options) noexcept {
   if (!is_exact_build()) return Status::bad_build;
   if (const Status status = check_call(target, draws, statistics, options); status != Status::ok) return status;
-  if (wanted_outputs(target).depth || !target.count.empty()) return Status::target_outputs;
+  if (asks_for_outputs(target, draws) || target.layers != 1) return Status::target_outputs;
   if (visitor.visit == nullptr) return Status::visitor;
   FloatEnvironment environment;
   CallersCode callers{environment, options.executor, visitor};
@@ -1444,30 +2420,53 @@ std::uint64_t samples_of(const Target& target) {
          static_cast<std::uint64_t>(target.samples);
 }
 
+bool layers_ok(const Target& target) {
+  return target.layers >= 1 && target.layers <= kMaxLayers;
+}
+
+bool origin_ok(const Target& target) {
+  const auto good = [](int place) { return place >= -kMaxOrigin && place <= kMaxOrigin; };
+  return good(target.origin.x) && good(target.origin.y);
+}
+
+bool locations_ok(const Target& target) {
+  const auto good = [](int place) { return place >= 0 && place <= 15; };
+  if (!fits(target.sample_locations, static_cast<std::uint64_t>(target.samples))) return false;
+  for (const SampleLocation& location : target.sample_locations) {
+    if (!good(location.x) || !good(location.y)) return false;
+  }
+  return true;
+}
+
 Status validate_target(const Target& target, Outputs& outputs) {
   if (!size_ok(target)) return Status::target_size;
   if (!samples_ok(target)) return Status::target_samples;
-  const std::uint64_t total = samples_of(target);
+  if (!layers_ok(target)) return Status::target_layers;
+  if (!origin_ok(target)) return Status::target_origin;
+  if (!locations_ok(target)) return Status::target_sample_locations;
+  const std::uint64_t total = samples_of(target), in_layers = static_cast<std::uint64_t>(target.layers) * total;
   if (!fits(target.count, total)) return Status::target_count;
-  if (!fits(target.index, total)) return Status::target_index;
-  if (!fits(target.depth, total)) return Status::target_depth;
-  if (!fits(target.barycentrics, 3 * total)) return Status::target_barycentrics;
+  if (!fits(target.winding, total)) return Status::target_winding;
+  if (!fits(target.index, in_layers)) return Status::target_index;
+  if (!fits(target.depth, in_layers)) return Status::target_depth;
+  if (!fits(target.barycentrics, 3 * in_layers)) return Status::target_barycentrics;
   if (null_but_not_empty(target.attributes) || target.attributes.size() > kMaxAttributes)
     return Status::target_attributes;
   for (const AttributeTarget& attribute : target.attributes) {
     if (attribute.components < 1 || attribute.components > kMaxComponents ||
-        !fits(attribute.values, attribute.components * total)) {
+        !fits(attribute.values, attribute.components * in_layers)) {
       return Status::target_attributes;
     }
   }
   if (!fits(target.initial_depth, total)) return Status::target_initial_depth;
-  if (target.depth_test > DepthTest::greater) return Status::target_depth_test;
+  if (target.depth_test > DepthTest::greater_equal) return Status::target_depth_test;
   if (target.attribute_location > AttributeLocation::centroid) return Status::target_attribute_location;
 
-  // The initial depth may be the depth buffer itself, but not overlap it otherwise.
-  const bool same = !target.depth.empty() && target.initial_depth.data() == target.depth.data();
+  // The initial depth may be the depth buffer itself, of one layer, but not overlap it otherwise.
+  const bool same = target.layers == 1 && !target.depth.empty() && target.initial_depth.data() == target.depth.data();
   const bool apart = outputs.add_buffers(target) && (same || !outputs.touched_by(Bytes(target.initial_depth))) &&
-                     !outputs.touched_by(Bytes(target.attributes)) && !outputs.touched_by(Bytes::of(&target));
+                     !outputs.touched_by(Bytes(target.attributes)) && !outputs.touched_by(Bytes::of(&target)) &&
+                     !outputs.touched_by(Bytes(target.sample_locations));
   return apart ? Status::ok : Status::target_overlap;
 }
 
@@ -1523,11 +2522,22 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
       return Status::draw_grid;
     }
   }
-  if (draw.conservative > Conservative::inner) return Status::draw_conservative;
-  if (draw.conservative != Conservative::none &&
-      (wanted_outputs(target).depth || target.samples != 1 || draw.depth_mode != DepthMode::none || draw.grid)) {
-    return Status::draw_conservative;
+  if (draw.depth_bias && !(std::isfinite(draw.depth_bias->constant) && std::isfinite(draw.depth_bias->slope))) {
+    return Status::draw_depth_bias;
   }
+  if (target.layers > 1 && !draw.depth_write) return Status::target_layers;
+  if (draw.conservative > Conservative::touched) return Status::draw_conservative;
+  if (draw.conservative != Conservative::none) {
+    const Wanted wanted = wanted_outputs(target);
+    if (wanted.shading || !target.depth.empty() || !target.winding.empty() || target.samples != 1 ||
+        draw.depth_mode != DepthMode::none || draw.grid) {
+      return Status::draw_conservative;
+    }
+    if (target.layers > 1) return Status::target_layers;
+    if (!target.sample_locations.empty()) return Status::target_sample_locations;
+  }
+  if (!fits(draw.covered, triangles)) return Status::draw_covered;
+  if (!fits(draw.visible, triangles)) return Status::draw_visible;
   bool apart = !outputs.touched_by(Bytes(draw.vertices)) && !outputs.touched_by(Bytes(draw.indices)) &&
                !outputs.touched_by(Bytes(draw.identifiers)) && !outputs.touched_by(Bytes(draw.attributes));
   for (const AttributeArray& attribute : draw.attributes) apart = apart && !outputs.touched_by(Bytes(attribute.values));
@@ -1538,14 +2548,35 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
   return Status::ok;
 }
 
+// M10: is it a frame whose conservative draws may have these outputs, and are they apart from each other?
+Status validate_numbers(std::span<const Draw> draws) {
+  const bool conservative =
+      std::any_of(draws.begin(), draws.end(), [](const Draw& draw) { return draw.conservative != Conservative::none; });
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    const Bytes covered(draws[d].covered), visible(draws[d].visible);
+    if (conservative && !draws[d].visible.empty()) return Status::draw_visible;
+    if (covered.overlaps(visible)) return Status::target_overlap;
+    const std::span<const Draw> before = draws.first(covered.empty() && visible.empty() ? 0 : d);
+    for (const Draw& other : before) {
+      const Bytes theirs[] = {Bytes(other.covered), Bytes(other.visible)};
+      for (const Bytes& bytes : theirs) {
+        if (covered.overlaps(bytes) || visible.overlaps(bytes)) return Status::target_overlap;
+      }
+    }
+  }
+  return Status::ok;
+}
+
 Status validate_frame(const Target& target, std::span<const Draw> draws, Outputs& outputs) {
+  const bool null = null_but_not_empty(draws);
+  if (!null) outputs.add_numbers(draws);
   if (const Status status = validate_target(target, outputs); status != Status::ok) return status;
-  if (null_but_not_empty(draws)) return Status::draws;
+  if (null) return Status::draws;
   if (outputs.touched_by(Bytes(draws))) return Status::target_overlap;
   for (const Draw& draw : draws) {
     if (const Status status = validate_draw(target, draw, outputs); status != Status::ok) return status;
   }
-  return Status::ok;
+  return outputs.has_numbers() ? validate_numbers(draws) : Status::ok;
 }
 
 }  // namespace
@@ -1586,11 +2617,11 @@ const char* status_text(Status status) noexcept {
     case Status::target_count:
       return "the count buffer's size is not that of the target";
     case Status::target_index:
-      return "the index buffer's size is not that of the target";
+      return "the index buffer's size is not that of the target's layers";
     case Status::target_depth:
-      return "the depth buffer's size is not that of the target";
+      return "the depth buffer's size is not that of the target's layers";
     case Status::target_barycentrics:
-      return "the barycentrics buffer's size is not 3 floats for each sample of the target";
+      return "the barycentrics buffer's size is not 3 floats for each sample of the target's layers";
     case Status::target_attributes:
       return "an attribute target has components outside 1..4 or a wrong size, or there are over 16";
     case Status::target_initial_depth:
@@ -1626,8 +2657,8 @@ const char* status_text(Status status) noexcept {
     case Status::draw_depth_mode:
       return "a draw's depth mode is not an enumerator of DepthMode";
     case Status::draw_conservative:
-      return "a draw's conservative mode is not an enumerator of Conservative, or the frame has more than counts, "
-             "several samples, a depth mode or a grid";
+      return "a draw's conservative mode is not an enumerator of Conservative, or the frame has more than count and "
+             "index, several samples, a depth mode or a grid";
     case Status::draw_grid:
       return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding";
     case Status::viewport:
@@ -1648,311 +2679,24 @@ const char* status_text(Status status) noexcept {
     case Status::to_pixel_vertices:
       return "to_pixel's vertices or results are null, not equally many, or overlap what the call reads";
     case Status::target_outputs:
-      return "the target of visit_coverage asks for an output";
+      return "the target of visit_coverage asks for an output or for layers";
+    case Status::target_origin:
+      return "the target's origin is outside -4194304..4194304";
+    case Status::target_sample_locations:
+      return "the sample locations are neither empty nor one for each sample, one is outside 0..15, or a draw is "
+             "conservative";
+    case Status::target_layers:
+      return "the layers are outside 1..16, or above 1 with a draw that is conservative or writes no depth";
+    case Status::target_winding:
+      return "the winding buffer's size is not that of the target";
+    case Status::draw_depth_bias:
+      return "a draw's depth bias is not finite";
+    case Status::draw_covered:
+      return "a draw's covered numbers are neither empty nor one for each triangle";
+    case Status::draw_visible:
+      return "a draw's visible numbers are neither empty nor one for each triangle, or a draw is conservative";
   }
   return "unknown status";
-}
-
-}  // namespace surefill_reference
-
-// ---------------------------------------------------------------- src/exact/grid.cpp
-namespace surefill_reference {
-namespace {
-
-// The planes of the guard band: gW - X, gW + X, gW - Y, gW + Y, in the order in which they clip. Positive is inside.
-constexpr int kPlanes = 4;
-constexpr bool bounds_x(int plane) {
-  return plane < 2;
-}
-constexpr double outwards(int plane) {
-  return plane % 2 == 0 ? 1 : -1;
-}
-
-// 39 and 24 bits, so that both sides are exact.
-bool inside_guard_band(const Vertex& v) {
-  const double x = v.x, y = v.y, limit = kGuardBand * static_cast<double>(v.w);
-  return std::fabs(x) <= limit && std::fabs(y) <= limit;
-}
-
-// A plane's function at a vertex of the triangle.
-Expansion<2> plane_value(int plane, const Vertex& v) {
-  Expansion<2> sum;
-  sum.add(kGuardBand * static_cast<double>(v.w));
-  sum.add(-outwards(plane) * static_cast<double>(bounds_x(plane) ? v.x : v.y));
-  return sum;
-}
-
-int plane_sign(int plane, const GuardCorner& corner) {
-  Expansion<32> sum;
-  sum.add_scaled(corner.w, kGuardBand);
-  sum.add_scaled(bounds_x(plane) ? corner.x : corner.y, -outwards(plane));
-  return sum.sign();
-}
-
-GuardCorner vertex_corner(const Vertex& v, int line) {
-  GuardCorner corner;
-  corner.x.add(v.x), corner.y.add(v.y), corner.z.add(v.z), corner.w.add(v.w);
-  corner.line = line;
-  return corner;
-}
-
-// Where a plane cuts the edge from a to b, from these end points alone: |f(b)| a + |f(a)| b, which is the same real
-// point for either order. f(a) and f(b) have opposite signs.
-GuardCorner edge_corner(int plane, const Vertex& a, const Vertex& b) {
-  const Expansion<2> fa = plane_value(plane, a), fb = plane_value(plane, b);
-  const auto mean = [&](double at_a, double at_b) {
-    Expansion<8> sum;
-    sum.add_scaled(fb, fb.sign() * at_a);
-    sum.add_scaled(fa, fa.sign() * at_b);
-    return sum;
-  };
-  GuardCorner corner;
-  corner.x = mean(a.x, b.x), corner.y = mean(a.y, b.y), corner.z = mean(a.z, b.z), corner.w = mean(a.w, b.w);
-  return corner;
-}
-
-// The sign of the sum of the E_i at the direction (0, 1, 0), which is b_0 + b_1 + b_2.
-int sign_of_b_sum(const Triangle& triangle) {
-  Expansion<6> sum;
-  for (int i = 0; i < 3; ++i) {
-    const EdgeFunction& edge = triangle.edge(i);
-    const double jx = edge.from.x, jw = edge.from.w, kx = edge.to.x, kw = edge.to.w;
-    sum.add(jw * kx);  // 48 bits, exact
-    sum.add(-(jx * kw));
-  }
-  return sum.sign();
-}
-
-// Where two planes of the band meet in the triangle's interior; `first` clipped before `second`. D is not 0: a plane
-// through the eye meets a guard plane in a line through the eye, and the part of that line within a hull without the
-// eye lies on one side of every other guard plane.
-//
-// An X plane and a Y plane: both X planes have been applied by then, so W >= 0, and 0 only at the eye; the point is
-// (+-g, +-g, 1) times a positive number.
-//
-// The two X planes: the point is (0, 1, 0) times l, where the weights l E_i / D of the vertices sum to 1, so l has the
-// sign of D times that of the sum of the E_i at (0, 1, 0). It lies outside of a Y plane, and so is gone in the end.
-GuardCorner band_corner(int first, int second, const Triangle& triangle) {
-  GuardCorner corner;
-  if (!bounds_x(second)) {
-    corner.guard_x = outwards(first) > 0 ? 1 : -1;
-    corner.guard_y = outwards(second) > 0 ? 1 : -1;
-    corner.x.add(kGuardBand * corner.guard_x), corner.y.add(kGuardBand * corner.guard_y), corner.w.add(1);
-  } else {
-    corner.y.add(triangle.determinant() * sign_of_b_sum(triangle));
-  }
-  return corner;
-}
-
-// Where a plane cuts the line that leads from `corner` to the next one.
-GuardCorner cut(const GuardCorner& corner, int plane, const Triangle& triangle) {
-  if (corner.line >= 3) return band_corner(corner.line - 3, plane, triangle);
-  return edge_corner(plane, triangle.edge(corner.line).from, triangle.edge(corner.line).to);
-}
-
-// Sutherland and Hodgman 1974, against one plane. A corner on the plane stays and is not cut again.
-void clip(const GuardPolygon& in, int plane, const Triangle& triangle, GuardPolygon* out) {
-  int sign[7];
-  for (int n = 0; n < in.corners; ++n) sign[n] = plane_sign(plane, in.corner[n]);
-  out->corners = 0;
-  for (int n = 0; n < in.corners; ++n) {
-    const GuardCorner& corner = in.corner[n];
-    const int here = sign[n], next = sign[(n + 1) % in.corners];
-    if (here >= 0) {
-      GuardCorner& kept = out->corner[out->corners++] = corner;
-      if (here == 0 && next < 0) kept.line = 3 + plane;
-    }
-    if (here * next < 0) {
-      GuardCorner& added = out->corner[out->corners++] = cut(corner, plane, triangle);
-      added.line = here > 0 ? 3 + plane : corner.line;
-    }
-  }
-}
-
-// G1. The hull of the triangle does not contain the eye.
-void clip_to_guard_band(const Triangle& triangle, GuardPolygon* polygon) {
-  polygon->corners = 0;
-  bool inside = true;
-  for (int i = 0; i < 3; ++i) {  // the line from vertex i to vertex i + 1 is the edge opposite vertex i + 2
-    polygon->corner[polygon->corners++] = vertex_corner(triangle.vertex(i), (i + 2) % 3);
-    inside = inside && inside_guard_band(triangle.vertex(i));
-  }
-  if (inside) return;
-  GuardPolygon other;
-  static_assert(kPlanes % 2 == 0, "the last result stands in *polygon");
-  for (int plane = 0; plane < kPlanes; plane += 2) {
-    clip(*polygon, plane, triangle, &other);
-    clip(other, plane + 1, triangle, polygon);
-  }
-}
-
-// k for t = (numerator / denominator - offset 2^-(bits + 4)) 2^bits, by its floor and by where t lies above it.
-double round_to_integer(double floor_of_t, int above_floor, int above_half, GridRounding rounding) {
-  const double up = floor_of_t + 1;
-  switch (rounding) {
-    case GridRounding::nearest_even:
-      if (above_half != 0) return above_half > 0 ? up : floor_of_t;
-      return std::fmod(floor_of_t, 2) == 0 ? floor_of_t : up;
-    case GridRounding::nearest_up:
-      return above_half >= 0 ? up : floor_of_t;
-    case GridRounding::truncate:
-      return floor_of_t < 0 && above_floor > 0 ? up : floor_of_t;
-  }
-  return floor_of_t;
-}
-
-// The grid position of a coordinate numerator / denominator, which lies in [-g, g], in units of 2^-(bits + 4) pixels;
-// `offset` is in these units.
-std::int64_t snap(const Expansion<8>& numerator, const Expansion<8>& denominator, int offset, const Grid& grid,
-                  Rungs* rungs) {
-  const double scale = 1 << grid.bits;
-  const auto compare = [&](double twice) {  // the sign of t - twice / 2; all factors are exact
-    Expansion<32> rest;
-    rest.add_scaled(numerator, 2 * scale);
-    rest.add_scaled(denominator, -(twice + offset / 8.0));
-    return rest.sign();
-  };
-  // |t| < 2^27, and the estimates, the division and the difference have relative errors below 2^-48 together.
-  const double error = snap_error();
-  const double estimate = numerator.estimate() / denominator.estimate() * scale - offset / 16.0;
-  double floor_of_t = std::floor(estimate);
-  const double fraction = estimate - floor_of_t;  // exact
-  int above_floor = 1, above_half = fraction > 0.5 ? 1 : -1;
-  if (fraction > error && fraction < 1 - error && std::fabs(fraction - 0.5) > error) {
-    count(rungs, &Rungs::values_by_filter);
-  } else {
-    count(rungs, &Rungs::values_by_expansion);
-    if (compare(2 * floor_of_t) < 0) {
-      floor_of_t -= 1;
-    } else if (compare(2 * floor_of_t + 2) >= 0) {
-      floor_of_t += 1;
-    }
-    above_floor = compare(2 * floor_of_t);
-    above_half = compare(2 * floor_of_t + 1);
-  }
-  const double k = round_to_integer(floor_of_t, above_floor, above_half, grid.rounding);
-  return 16 * static_cast<std::int64_t>(k) + offset;
-}
-
-// Widens a range by z / w; an empty range has low > high. Rounding is monotonic, so the rounded ends are those of the
-// exact range.
-template <std::size_t kZ, std::size_t kW>
-void widen(const Expansion<kZ>& z, const Expansion<kW>& w, DepthRange* range) {
-  Expansion<kZ + kW> above_one;
-  for (int i = 0; i < z.size(); ++i) above_one.add(z.term(i));
-  for (int i = 0; i < w.size(); ++i) above_one.add(-w.term(i));
-  const bool below_zero = z.sign() * w.sign()<0, is_above_one = above_one.sign() * w.sign()> 0;
-  const float rounded = round_quotient(z, w);
-  range->low = std::min(range->low, rounded);
-  range->high = std::max(range->high, rounded);
-  range->low_below_zero = range->low_below_zero || below_zero;
-  range->high_below_zero = range->high_below_zero && below_zero;
-  range->low_above_one = range->low_above_one && is_above_one;
-  range->high_above_one = range->high_above_one || is_above_one;
-}
-
-}  // namespace
-
-// If a product m_j x m_k is not 0, the three are multiples of one normal, and the weights l with l_0 m_0 + l_1 m_1 +
-// l_2 m_2 = 0 are those multiples, up to a factor: the signs of any component of the products that is not 0 throughout
-// tell. Else the three vectors are multiples of one direction (or 0), and the hull misses 0 exactly if they are
-// positive multiples of one of them: if a coordinate has one sign, other than 0, in all three.
-bool hull_contains_eye(const Triangle& triangle) {
-  const EdgeFunction &e0 = triangle.edge(0), &e1 = triangle.edge(1), &e2 = triangle.edge(2);
-  const double products[3][3] = {{e0.a, e1.a, e2.a}, {e0.b, e1.b, e2.b}, {e0.c, e1.c, e2.c}};
-  for (const auto& l : products) {
-    const auto [low, high] = std::minmax({l[0], l[1], l[2]});  // their signs are exact
-    if (low != 0 || high != 0) return low >= 0 || high <= 0;
-  }
-  const Vertex &v0 = triangle.vertex(0), &v1 = triangle.vertex(1), &v2 = triangle.vertex(2);
-  const auto one_sign = [](float a, float b, float c) {
-    return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
-  };
-  return !one_sign(v0.x, v1.x, v2.x) && !one_sign(v0.y, v1.y, v2.y) && !one_sign(v0.w, v1.w, v2.w);
-}
-
-double snapped_position(float c, float w, int offset, const Grid& grid, Rungs* rungs) {
-  Expansion<8> numerator, denominator;
-  numerator.add(c), denominator.add(w);
-  return static_cast<double>(snap(numerator, denominator, offset, grid, rungs)) / (16 << grid.bits);
-}
-
-bool SnappedTriangle::set_up(const Vertex& v0, const Vertex& v1, const Vertex& v2, const Grid& grid, Rungs* rungs) {
-  depth_range_known_ = false;
-  if (!triangle_.set_up(v0, v1, v2, rungs) && hull_contains_eye(triangle_)) return false;
-  clip_to_guard_band(triangle_, &polygon_);
-  for (int n = 0; n < polygon_.corners; ++n) {
-    const GuardCorner& corner = polygon_.corner[n];
-    point_[n] = {snap(corner.x, corner.w, grid.offset_x, grid, rungs),
-                 snap(corner.y, corner.w, grid.offset_y, grid, rungs)};
-  }
-  units_per_pixel_ = 1 << (grid.bits + 4);
-  return true;
-}
-
-PixelBox SnappedTriangle::box(PixelBox limits, double least_offset, double largest_offset) const {
-  if (polygon_.corners == 0) return {0, 0, 0, 0};
-  Point low = point_[0], high = point_[0];
-  for (int n = 1; n < polygon_.corners; ++n) {
-    low = {std::min(low.x, point_[n].x), std::min(low.y, point_[n].y)};
-    high = {std::max(high.x, point_[n].x), std::max(high.y, point_[n].y)};
-  }
-  const auto pixels = [this](std::int64_t units) { return static_cast<double>(units) / units_per_pixel_; };  // exact
-  clip_to_reach({pixels(low.x), pixels(high.x)}, least_offset, largest_offset, &limits.x0, &limits.x1);
-  clip_to_reach({pixels(low.y), pixels(high.y)}, least_offset, largest_offset, &limits.y0, &limits.y1);
-  return limits;
-}
-
-// Edges that cross the ray from the perturbed sample towards +x, with their direction. Differences of coordinates are
-// below 2^31 + 2^18 in magnitude and their products below 2^63; these are compared and not subtracted.
-int SnappedTriangle::winding(const Point* corner, int corners, SamplePosition p, TieShift shift) const {
-  const auto px = static_cast<std::int64_t>(p.x * units_per_pixel_);
-  const auto py = static_cast<std::int64_t>(p.y * units_per_pixel_);
-  const auto beyond = [&](const Point& a) { return a.y > py || (a.y == py && shift.y < 0); };  // y above the sample's
-  int sum = 0;
-  for (int n = 0; n < corners; ++n) {
-    const Point &from = corner[n], &to = corner[n + 1 < corners ? n + 1 : 0];
-    if (beyond(from) == beyond(to)) continue;
-    const std::int64_t dx = to.x - from.x, dy = to.y - from.y;
-    const std::int64_t left = dx * (py - from.y), right = dy * (px - from.x);  // E(p) = left - right; a = -dy, b = dx
-    int sign = left > right ? 1 : left < right ? -1 : 0;
-    if (sign == 0) sign = tie_sign(-static_cast<double>(dy), static_cast<double>(dx), shift);
-    if (sign == (beyond(to) ? 1 : -1)) sum += sign;
-  }
-  return sum;
-}
-
-bool SnappedTriangle::depth(SamplePosition p, DepthMode mode, float* stored, Rungs* rungs) {
-  know_depth_range();
-  const DepthRange& range = depth_range_;
-  const bool flat = triangle_.determinant() == 0;
-  if (mode == DepthMode::clip) {
-    // z clamped to [low, high] is below 0 if high is, or if low and z are; and so for 1.
-    if (range.high_below_zero || range.low_above_one) return false;
-    if (flat && range.low_below_zero) return false;
-    if (!flat && range.low_below_zero && triangle_.compare_depth(p, 0, rungs) < 0) return false;
-    if (!flat && range.high_above_one && triangle_.compare_depth(p, 1, rungs) > 0) return false;
-  }
-  *stored = range.low;
-  if (!flat) *stored = std::clamp(triangle_.rounded_depth(p, rungs), range.low, range.high);
-  if (mode == DepthMode::clamp) *stored = std::clamp(*stored, 0.0f, 1.0f);  // rounding is monotonic
-  return true;
-}
-
-void SnappedTriangle::know_depth_range() {
-  if (depth_range_known_) return;
-  depth_range_known_ = true;
-  constexpr float kInfinity = std::numeric_limits<float>::infinity();
-  depth_range_ = {kInfinity, -kInfinity, false, true, true, false};
-  for (int n = 0; n < polygon_.corners; ++n) {
-    const GuardCorner& corner = polygon_.corner[n];
-    if (corner.guard_x != 0) {
-      const SamplePosition p{kGuardBand * corner.guard_x, kGuardBand * corner.guard_y};
-      widen(triangle_.exact_depth_numerator(p), triangle_.exact_determinant_value(), &depth_range_);
-    } else {
-      widen(corner.z, corner.w, &depth_range_);
-    }
-  }
 }
 
 }  // namespace surefill_reference
@@ -1961,206 +2705,55 @@ void SnappedTriangle::know_depth_range() {
 namespace surefill_reference::reference {
 namespace {
 
-// A sample that M2 counts: the triangle, by its position in the draw, the pixel, the number of the sample and, where
-// somebody looks at depth, what is stored of it.
-struct Fragment {
-  std::uint32_t position;
-  int x, y, n;
-  float z;
-};
-
-// One draw of a frame.
-class DrawRenderer {
- public:
-  // `depth` and `winner` are null if no depth is looked at. winner[s] is the position of the triangle of this draw that
-  // is seen at sample s, or kNoTriangle; all kNoTriangle on entry.
-  DrawRenderer(const Target& target, const Draw& draw, float* depth, std::uint32_t* winner, Rungs& rungs)
-      : target_(target), draw_(draw), depth_(depth), winner_(winner), rungs_(rungs), shift_(tie_shift(draw.fill_rule)) {
-    for (int n = 0; n < target.samples; ++n) {
-      const SamplePosition offset = offset_[n] = sample_offset(target.samples, n);
-      least_ = std::min({least_, offset.x, offset.y}), largest_ = std::max({largest_, offset.x, offset.y});
-    }
+// Calls sink(Fragment) for each sample of numbers [first, last) that M2 counts: triangle by triangle, and of each by
+// blocks of 8 x 8 pixels, which begin at the target's corner (M8).
+template <typename Sink>
+void traverse(const Target& target, const Draw& draw, DrawFragments& fragments, int first, int last, Rungs& rungs,
+              const Sink& sink) {
+  const PixelBox region = region_of(target, draw);
+  const Origin& o = target.origin;
+  double least = 1, largest = 0;  // of the coordinates of a pixel's samples
+  for (int n = 0; n < target.samples; ++n) {
+    const SamplePosition offset = sample_offset(target, n);
+    least = std::min({least, offset.x, offset.y}), largest = std::max({largest, offset.x, offset.y});
   }
-
-  // Who covers, and who is seen.
-  void rasterize() {
-    traverse(0, target_.samples, [this](const Fragment& f) {
-      const std::size_t s = sample_index(target_, f.x, f.y, static_cast<std::size_t>(f.n));
-      if (!target_.count.empty()) ++target_.count[s];
-      if (winner_ == nullptr || !passes(f.position, f.z, s)) return;
-      winner_[s] = f.position;
-      if (draw_.depth_write) depth_[s] = f.z;
-    });
-  }
-
-  // The covered samples of number n, triangle by triangle, block by block.
-  void visit(std::uint32_t number, int n, const CoverageVisitor& visitor) {
-    CoverageBlock block{number, 0, 0, 0, n, 0};
-    const auto flush = [&] {
-      if (block.mask != 0) visitor.visit(visitor.context, {&block, 1});
-      block.mask = 0;
-    };
-    traverse(n, n + 1, [&](const Fragment& f) {
-      if (f.position != block.triangle || (f.x & ~7) != block.x || (f.y & ~7) != block.y) {
-        flush();
-        block.triangle = f.position, block.x = f.x & ~7, block.y = f.y & ~7;
-      }
-      block.mask |= std::uint64_t{1} << (8 * (f.y & 7) + (f.x & 7));
-    });
-    flush();
-  }
-
-  // Writes index, barycentrics and attributes of every sample whose winner belongs to this draw.
-  void shade(bool shading) {
-    for (int y = 0; y < target_.height; ++y) {
-      for (int x = 0; x < target_.width; ++x) {
-        const std::size_t first = sample_index(target_, x, y, 0);
-        for (std::size_t s = first; s < first + static_cast<std::size_t>(target_.samples); ++s) {
-          const std::uint32_t position = winner_[s];
-          if (position == kNoTriangle) continue;
-          if (!target_.index.empty()) target_.index[s] = index_of(draw_, position);
-          if (!shading) continue;
-          if (s > first && winner_[s - 1] == position) {
-            copy_shading(s - 1, s);
-            continue;
-          }
-          triangle_.use(draw_, position, &rungs_);
-          shade_sample(position, triangle_.place_of_attributes(target_, x, y, shift_), s);
-        }
-      }
-    }
-  }
-
- private:
-  // Calls sink(Fragment) for each sample of numbers [first, last) that M2 counts: triangle by triangle, and of each by
-  // blocks of 8 x 8 pixels.
-  template <typename Sink>
-  void traverse(int first, int last, const Sink& sink) {
-    const PixelBox region = region_of(target_, draw_);
-    for (std::size_t t = 0; t < triangles_of(draw_); ++t) {
-      const auto position = static_cast<std::uint32_t>(t);
-      if (region.empty() || !is_finite(draw_, position) || !triangle_.use(draw_, position, &rungs_)) continue;
-      // Under Grid facing is a matter of the sample (G1).
-      if (!draw_.grid && culls(draw_, triangle_.triangle().determinant())) continue;
-      const PixelBox box = triangle_.box(region, least_, largest_);
-      for (int by = box.y0 & ~7; by < box.y1; by += 8) {
-        for (int bx = box.x0 & ~7; bx < box.x1; bx += 8) {
-          for (int y = std::max(by, box.y0); y < std::min(by + 8, box.y1); ++y) {
-            for (int x = std::max(bx, box.x0); x < std::min(bx + 8, box.x1); ++x) {
-              for (int n = first; n < last; ++n) {
-                Fragment fragment{position, x, y, n, 0};
-                if (counts(fragment)) sink(fragment);
-              }
+  for (std::size_t t = 0; t < triangles_of(draw); ++t) {
+    const auto position = static_cast<std::uint32_t>(t);
+    if (region.empty() || !is_finite(draw, position) || !fragments.triangle().use(draw, position, &rungs)) continue;
+    // Under Grid facing is a matter of the sample (G1).
+    if (!draw.grid && culls(draw, fragments.triangle().triangle().determinant())) continue;
+    PixelBox box = fragments.triangle().box(region, least, largest);
+    if (box.empty()) continue;
+    box = {box.x0 - o.x, box.y0 - o.y, box.x1 - o.x, box.y1 - o.y};
+    for (int by = box.y0 & ~7; by < box.y1; by += 8) {
+      for (int bx = box.x0 & ~7; bx < box.x1; bx += 8) {
+        for (int y = std::max(by, box.y0); y < std::min(by + 8, box.y1); ++y) {
+          for (int x = std::max(bx, box.x0); x < std::min(bx + 8, box.x1); ++x) {
+            for (int n = first; n < last; ++n) {
+              Fragment fragment{position, x, y, n};
+              if (fragments.counts(fragment)) sink(fragment);
             }
           }
         }
       }
     }
   }
-
-  // M2: covered, not culled, and not removed by depth clipping. Finds out the depth, where it is looked at.
-  bool counts(Fragment& f) {
-    if (draw_.conservative != Conservative::none) return triangle_.draws_square(f.x, f.y, &rungs_);
-    const SamplePosition p{f.x + offset_[f.n].x, f.y + offset_[f.n].y};
-    if (!triangle_.draws(p, shift_, &rungs_)) return false;
-    if (winner_ == nullptr && draw_.depth_mode != DepthMode::clip) return true;
-    return triangle_.depth(p, &f.z, &rungs_);
-  }
-
-  // V1 and M5. Among equal indices the first position wins with depth write on, the last with depth write off.
-  bool passes(std::uint32_t position, float z, std::size_t s) const {
-    const bool nearer = target_.depth_test == DepthTest::less ? z < depth_[s] : z > depth_[s];
-    if (winner_[s] == kNoTriangle) return nearer;
-    if (!draw_.depth_write) return nearer && index_of(draw_, position) >= index_of(draw_, winner_[s]);
-    return nearer || (z == depth_[s] && index_of(draw_, position) < index_of(draw_, winner_[s]));
-  }
-
-  void shade_sample(std::uint32_t position, SamplePosition p, std::size_t s) {
-    if (!target_.barycentrics.empty()) {
-      for (std::size_t i = 0; i < 3; ++i) {
-        const float unit[3] = {i == 0 ? 1.0f : 0.0f, i == 1 ? 1.0f : 0.0f, i == 2 ? 1.0f : 0.0f};
-        target_.barycentrics[3 * s + i] = triangle_.attribute(p, unit, Interpolation::perspective, &rungs_);
-      }
-    }
-    for (std::size_t k = 0; k < target_.attributes.size(); ++k) {
-      const AttributeTarget& out = target_.attributes[k];
-      if (out.values.empty()) continue;
-      const AttributeArray& in = draw_.attributes[k];
-      for (std::size_t c = 0; c < out.components; ++c) {
-        float u[3];
-        for (std::size_t i = 0; i < 3; ++i) u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
-        out.values[s * out.components + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
-      }
-    }
-  }
-
-  // Attributes are evaluated once per pixel (M1).
-  void copy_shading(std::size_t from, std::size_t to) {
-    if (!target_.barycentrics.empty()) {
-      for (std::size_t i = 0; i < 3; ++i) target_.barycentrics[3 * to + i] = target_.barycentrics[3 * from + i];
-    }
-    for (const AttributeTarget& out : target_.attributes) {
-      if (out.values.empty()) continue;
-      for (std::size_t c = 0; c < out.components; ++c) {
-        out.values[to * out.components + c] = out.values[from * out.components + c];
-      }
-    }
-  }
-
-  const Target& target_;
-  const Draw& draw_;
-  float* depth_;
-  std::uint32_t* winner_;
-  Rungs& rungs_;
-  TieShift shift_;
-  SamplePosition offset_[16];       // of the samples of a pixel
-  double least_ = 1, largest_ = 0;  // of their coordinates
-  ExactDraw triangle_;
-};
-
-// The empty image (V1), without depth.
-void clear(const Target& target) {
-  std::fill(target.count.begin(), target.count.end(), 0u);
-  std::fill(target.index.begin(), target.index.end(), kNoTriangle);
-  std::fill(target.barycentrics.begin(), target.barycentrics.end(), 0.0f);
-  for (const AttributeTarget& attribute : target.attributes) {
-    std::fill(attribute.values.begin(), attribute.values.end(), 0.0f);
-  }
-}
-
-void clear_depth(const Target& target, float* depth, std::size_t total) {
-  if (target.initial_depth.empty()) {
-    std::fill(depth, depth + total, empty_depth(target.depth_test));
-  } else if (target.initial_depth.data() != depth) {
-    std::memcpy(depth, target.initial_depth.data(), total * sizeof(float));
-  }
 }
 
 }  // namespace
 
+void draw(const Target& target, const Draw& draw, std::uint32_t number, Layers* layers, Rungs& rungs) noexcept {
+  DrawFragments fragments(target, draw, number, layers, rungs);
+  traverse(target, draw, fragments, 0, target.samples, rungs, [&](const Fragment& f) { fragments.take(f); });
+}
+
 Status render(const Target& target, std::span<const Draw> draws, Rungs& rungs) noexcept {
-  const Wanted wanted = wanted_outputs(target);
-  const std::size_t total = sample_total(target);
-  std::unique_ptr<float[]> own_depth;
-  std::unique_ptr<std::uint32_t[]> winner;
-  float* depth = nullptr;
-  if (wanted.depth) {
-    depth = target.depth.data();
-    if (target.depth.empty()) {
-      own_depth.reset(new (std::nothrow) float[total]);
-      depth = own_depth.get();
-    }
-    winner.reset(new (std::nothrow) std::uint32_t[total]);
-    if (depth == nullptr || winner == nullptr) return Status::out_of_memory;
-    clear_depth(target, depth, total);
+  FragmentFrame frame(target, draws);
+  if (!frame.begin()) return Status::out_of_memory;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    draw(target, draws[d], static_cast<std::uint32_t>(d), frame.layers(), rungs);
   }
-  clear(target);
-  for (const Draw& draw : draws) {
-    if (winner != nullptr) std::fill(winner.get(), winner.get() + total, kNoTriangle);
-    DrawRenderer renderer(target, draw, depth, winner.get(), rungs);
-    renderer.rasterize();
-    if (wanted.visibility) renderer.shade(wanted.shading);
-  }
+  frame.finish(rungs);
   return Status::ok;
 }
 
@@ -2168,76 +2761,26 @@ Status visit_coverage(const Target& target, std::span<const Draw> draws, const C
                       Rungs& rungs) noexcept {
   for (int n = 0; n < target.samples; ++n) {
     for (std::size_t d = 0; d < draws.size(); ++d) {
-      DrawRenderer(target, draws[d], nullptr, nullptr, rungs).visit(static_cast<std::uint32_t>(d), n, visitor);
+      DrawFragments fragments(target, draws[d], static_cast<std::uint32_t>(d), nullptr, rungs);
+      CoverageBlock block{fragments.number(), 0, 0, 0, n, 0};
+      const auto flush = [&] {
+        if (block.mask != 0) visitor.visit(visitor.context, {&block, 1});
+        block.mask = 0;
+      };
+      traverse(target, draws[d], fragments, n, n + 1, rungs, [&](const Fragment& f) {
+        if (f.position != block.triangle || (f.x & ~7) != block.x || (f.y & ~7) != block.y) {
+          flush();
+          block.triangle = f.position, block.x = f.x & ~7, block.y = f.y & ~7;
+        }
+        block.mask |= std::uint64_t{1} << (8 * (f.y & 7) + (f.x & 7));
+      });
+      flush();
     }
   }
   return Status::ok;
 }
 
 }  // namespace surefill_reference::reference
-
-// ---------------------------------------------------------------- src/exact/exact_draw.cpp
-namespace surefill_reference {
-
-int orientation(const Draw& draw, std::uint32_t position, Rungs* rungs) {
-  const EdgeFunction edge(vertex_of(draw, position, 1), vertex_of(draw, position, 2));
-  return determinant_sign(edge, vertex_of(draw, position, 0), rungs);
-}
-
-bool is_degenerate(const Draw& draw, std::uint32_t position) {
-  if (!draw.grid) return true;
-  Triangle triangle;
-  triangle.set_up(vertex_of(draw, position, 0), vertex_of(draw, position, 1), vertex_of(draw, position, 2));
-  return hull_contains_eye(triangle);
-}
-
-bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
-  if (draw_ == &draw && position_ == position) return covers_something_;
-  draw_ = &draw, position_ = position;
-  const Vertex &v0 = vertex_of(draw, position, 0), &v1 = vertex_of(draw, position, 1),
-               &v2 = vertex_of(draw, position, 2);
-  covers_something_ = draw.grid ? snapped_.set_up(v0, v1, v2, *draw.grid, rungs) : triangle_.set_up(v0, v1, v2, rungs);
-  return covers_something_;
-}
-
-PixelBox ExactDraw::box(const PixelBox& limits, double least_offset, double largest_offset) const {
-  if (draw_->grid) return snapped_.box(limits, least_offset, largest_offset);
-  const bool squares = draw_->conservative != Conservative::none;
-  return screen_box(triangle_.vertex(0), triangle_.vertex(1), triangle_.vertex(2), limits, squares ? 0 : least_offset,
-                    squares ? 1 : largest_offset);
-}
-
-bool ExactDraw::draws_square(int x, int y, Rungs* rungs) const {
-  const PixelSquare square(triangle_, x, y, rungs);
-  return draw_->conservative == Conservative::over ? square.touched() : square.inside();
-}
-
-bool ExactDraw::depth(SamplePosition p, float* stored, Rungs* rungs) {
-  return draw_->grid ? snapped_.depth(p, draw_->depth_mode, stored, rungs)
-                     : triangle_.depth(p, draw_->depth_mode, stored, rungs);
-}
-
-bool ExactDraw::has_values(SamplePosition p) const {
-  return draw_->grid ? snapped_.has_weights(p) : triangle_.plane_in_front(p);
-}
-
-SamplePosition ExactDraw::place_of_attributes(const Target& target, int x, int y, TieShift shift) const {
-  const SamplePosition centre{x + 0.5, y + 0.5};
-  if (target.samples == 1) return centre;
-  if (target.attribute_location == AttributeLocation::centre && has_values(centre)) return centre;
-  if (covers(centre, shift)) return centre;
-  for (int n = 0; n < target.samples; ++n) {
-    const SamplePosition offset = sample_offset(target.samples, n), p{x + offset.x, y + offset.y};
-    if (covers(p, shift)) return p;
-  }
-  return centre;  // not reached: the triangle is seen at a sample of this pixel
-}
-
-float ExactDraw::attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs) {
-  return draw_->grid ? snapped_.attribute(p, u, interpolation, rungs) : triangle_.attribute(p, u, interpolation, rungs);
-}
-
-}  // namespace surefill_reference
 
 // ---------------------------------------------------------------- src/statistics.cpp
 namespace surefill_reference {
@@ -2265,6 +2808,84 @@ Statistics statistics_of(std::span<const Draw> draws) noexcept {
 }
 
 }  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/streamed.cpp
+namespace surefill_reference::streamed {
+namespace {
+
+// What a block of the stream needs. Blocks of different tiles come on different threads, and share no sample.
+struct Sink {
+  const Target& target;
+  std::span<const Draw> draws;
+  Layers* layers;
+
+  static void visit(void* context, std::span<const CoverageBlock> blocks) {
+    const Sink& sink = *static_cast<const Sink*>(context);
+    const std::uint32_t number = blocks[0].draw, position = blocks[0].triangle;
+    Rungs rungs;  // those of the fragments are not told
+    DrawFragments fragments(sink.target, sink.draws[number], number, sink.layers, rungs);
+    fragments.triangle().use(sink.draws[number], position);
+    for (const CoverageBlock& block : blocks) {
+      for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
+        const int bit = std::countr_zero(bits);
+        Fragment fragment{position, block.x + (bit & 7), block.y + (bit >> 3), block.sample};
+        if (fragments.counts_of_covered(fragment)) fragments.take(fragment);
+      }
+    }
+  }
+};
+
+// Overlapped and touched pixels are among those that the triangle meets.
+Conservative streamed_mode(Conservative mode) {
+  return mode > Conservative::inner ? Conservative::over : mode;
+}
+
+// The triangles of a draw whose D is 0, which M4b draws and no stream has.
+void draw_degenerate(const Target& target, const Draw& draw, std::uint32_t number) {
+  Rungs rungs;
+  for (std::uint32_t position = 0; position < triangles_of(draw); ++position) {
+    if (!is_finite(draw, position) || orientation(draw, position) != 0) continue;
+    Draw one = draw;
+    const std::uint32_t index = index_of(draw, position);
+    one.indices = draw.indices.subspan(std::size_t{3} * position, 3);
+    one.identifiers = {}, one.first_index = index;
+    if (!draw.covered.empty()) one.covered = draw.covered.subspan(position, 1);
+    reference::draw(target, one, number, nullptr, rungs);
+  }
+}
+
+}  // namespace
+
+bool supports(const Target& target, std::span<const Draw> draws) {
+  return fast::streams(target, draws);
+}
+
+Status render(const Target& target, std::span<const Draw> draws, const Options& options,
+              Diagnostics& diagnostics) noexcept {
+  FragmentFrame frame(target, draws);
+  const std::unique_ptr<Draw[]> streamed(new (std::nothrow) Draw[draws.size()]);
+  if (streamed == nullptr || !frame.begin()) return Status::out_of_memory;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    streamed[d] = draws[d];
+    streamed[d].conservative = streamed_mode(draws[d].conservative);
+  }
+  Target places;  // all that a stream knows of a target
+  places.width = target.width, places.height = target.height, places.samples = target.samples;
+  places.origin = target.origin, places.sample_locations = target.sample_locations;
+  Sink sink{target, draws, frame.layers()};
+  const Status status =
+      fast::visit_coverage(places, {streamed.get(), draws.size()}, {Sink::visit, &sink}, options, diagnostics);
+  if (status != Status::ok) return status;
+  for (std::size_t d = 0; d < draws.size(); ++d) {
+    if (draws[d].conservative != Conservative::touched) continue;
+    draw_degenerate(target, draws[d], static_cast<std::uint32_t>(d));
+  }
+  Rungs rungs;
+  frame.finish(rungs);
+  return Status::ok;
+}
+
+}  // namespace surefill_reference::streamed
 
 // ---------------------------------------------------------------- src/viewport.cpp
 //

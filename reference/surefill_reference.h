@@ -62,7 +62,7 @@
 // Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
 //            only if Options asks for them, and they end with it; or it uses the caller's.
 // Memory     A call allocates what it needs and frees it, or leaves it to a Context: at most 12 bytes a sample, 32 MiB
-//            and 1 MiB a thread, however many triangles there are; on the reference path up to 8 bytes a sample. When
+//            and 1 MiB a thread, however many triangles there are; on the reference path up to 12 bytes a sample and layer. When
 //            that cannot be had, the status is out_of_memory.
 
 
@@ -85,7 +85,9 @@ Status render(const Target& target, std::span<const Draw> draws,
 Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
                            const Options& options) noexcept;
 
-inline constexpr int kMaxTargetSize = 16384;               // pixels, each way
+inline constexpr int kMaxTargetSize = 16384;  // pixels, each way
+inline constexpr int kMaxOrigin = 1 << 22;    // pixels, each way and sign
+inline constexpr int kMaxLayers = 16;
 inline constexpr std::size_t kMaxAttributes = 16;          // attribute arrays of a draw
 inline constexpr std::uint32_t kMaxComponents = 4;         // floats of one attribute
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;  // the index of an empty sample [V1]
@@ -97,9 +99,9 @@ enum class Status : std::uint32_t {
   target_size,                // width or height outside 1..kMaxTargetSize
   target_samples,             // samples not 1, 2, 4, 8 or 16
   target_count,               // count is neither empty nor of sample_total(target) elements
-  target_index,               // index: the same
+  target_index,               // index is neither empty nor of layers * sample_total(target) elements
   target_depth,               // depth: the same
-  target_barycentrics,        // barycentrics: neither empty nor 3 * sample_total(target) elements
+  target_barycentrics,        // barycentrics: neither empty nor 3 * layers * sample_total(target) elements
   target_attributes,          // an attribute target: components outside 1..4, too many, or the wrong buffer size
   target_initial_depth,       // initial_depth is neither empty nor of sample_total(target) elements
   target_overlap,             // an output, statistics and answers among them, overlaps another or what the call reads:
@@ -118,7 +120,8 @@ enum class Status : std::uint32_t {
   draw_front_face,               // not an enumerator of FrontFace
   draw_cull,                     // not an enumerator of Cull
   draw_depth_mode,               // not an enumerator of DepthMode
-  draw_conservative,             // not an enumerator of Conservative, or in a frame that asks for more than count [M4]
+  draw_conservative,             // not an enumerator of Conservative, or in a frame that asks for more than count and
+                                 // index, or with several samples, a depth mode or a Grid [M4]
   draw_grid,                     // bits outside 0..12, an offset outside 0..15, or not an enumerator of GridRounding
   viewport,                      // a viewport number that is not finite
   options_threads,               // a number of threads outside 1..kMaxThreads
@@ -128,7 +131,14 @@ enum class Status : std::uint32_t {
   visitor,                       // of visit_coverage: its function is null
   bad_build,                     // the library was compiled with options that break exact arithmetic (docs/library.md)
   to_pixel_vertices,             // of to_pixel: vertices or out are null but not empty, of two sizes, or overlap
-  target_outputs,                // of visit_coverage: the target asks for an output
+  target_outputs,                // of visit_coverage: the target asks for an output, or for layers
+  target_origin,                 // |x| or |y| above kMaxOrigin
+  target_sample_locations,  // neither empty nor one for each sample, a place outside 0..15, or with a conservative draw
+  target_layers,            // outside 1..kMaxLayers, or above 1 with depth write off or a conservative draw [V4]
+  target_winding,           // winding is neither empty nor of sample_total(target) elements
+  draw_depth_bias,          // a number that is not finite
+  draw_covered,             // neither empty nor one for each triangle
+  draw_visible,             // visible: the same, or with a conservative draw [M10]
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
@@ -181,11 +191,14 @@ enum class FillRule : std::uint8_t {
 
 enum class FrontFace : std::uint8_t { clockwise, counter_clockwise };  // as seen on the screen; clockwise: D > 0 [F1]
 enum class Cull : std::uint8_t { none, front, back };                  // which facing is not drawn [F2]
-enum class DepthTest : std::uint8_t { less, greater };                 // greater: reversed z [V1]
-enum class DepthMode : std::uint8_t { none, clip, clamp };             // what happens outside 0 <= z <= 1 [I5]
-enum class Interpolation : std::uint8_t { perspective, noperspective, flat };   // flat: the value of vertex 0 [I2]
-enum class AttributeLocation : std::uint8_t { centre, centroid };               // of a pixel with several samples [M1]
-enum class Conservative : std::uint8_t { none, over, inner };                   // [M4]
+// greater: reversed z [V1]. With the other two the later one of equal depths is seen [V5].
+enum class DepthTest : std::uint8_t { less, greater, less_equal, greater_equal };
+enum class DepthMode : std::uint8_t { none, clip, clamp };                     // what happens outside 0 <= z <= 1 [I5]
+enum class Interpolation : std::uint8_t { perspective, noperspective, flat };  // flat: the value of vertex 0 [I2]
+enum class AttributeLocation : std::uint8_t { centre, centroid };              // of a pixel with several samples [M1]
+// Which pixels a triangle counts at, by its border: those it meets, those that lie in it [M4], those it shares an area
+// with [M4a], those it meets though it be degenerate [M4b].
+enum class Conservative : std::uint8_t { none, over, inner, overlap, touched };
 enum class GridRounding : std::uint8_t { nearest_even, nearest_up, truncate };  // of a position to the grid
 
 // Half-open pixel rectangle [x0, x1) x [y0, y1); any values, empty where x0 >= x1 or y0 >= y1 [M3].
@@ -202,6 +215,13 @@ struct Grid {
   GridRounding rounding = GridRounding::nearest_even;
   // Equality, member by member.
   bool operator==(const Grid&) const = default;
+};
+
+// Depth is z + constant + slope m, a real number rounded once; m is the larger of |dz/dx| and |dz/dy|, a pixel [I8]. Finite.
+struct DepthBias {
+  float constant = 0, slope = 0;
+  // Equality of numbers: -0 equals 0, a NaN equals nothing.
+  bool operator==(const DepthBias&) const = default;
 };
 
 // One attribute of every vertex of a draw. The value of component c at vertex v is values[v * stride + c].
@@ -223,6 +243,7 @@ struct DrawState {
   std::optional<Scissor> scissor;
   std::optional<Grid> grid;
   std::optional<std::array<Vertex, 8>> culling_box;  // corners whose hull contains the draw: the caller's promise [M6]
+  std::optional<DepthBias> depth_bias;               // no part in conservative draws
 
   // Equality of numbers: -0 equals 0, a NaN equals nothing.
   bool operator==(const DrawState&) const = default;
@@ -239,16 +260,34 @@ struct Draw : DrawState {
   std::span<const std::uint32_t> identifiers;  // one a triangle, unique; or empty: first_index + t [V2]
   std::uint32_t first_index = 0;
   std::span<const AttributeArray> attributes;  // array k feeds target attribute k; more arrays only take part in B1
+  // Outputs [M10], one number a triangle by position, written whole; empty: not asked for.
+  std::span<std::uint64_t> covered;  // at how many samples of the frame it is counted [M2]
+  std::span<std::uint64_t> visible;  // at how many it is the visible one when all draws are drawn, in layer 0
 };
 
 // An attribute image. The value of component c at sample s is values[s * components + c].
 struct AttributeTarget {
-  std::span<float> values;  // components * sample_total(target) floats, or empty: this attribute is not asked for
+  std::span<float> values;  // components * layers * sample_total(target) floats, or empty: not asked for
   std::uint32_t components = 1;
 };
 
+// A place within a pixel, from its top left corner, in 1/16 pixel.
+struct SampleLocation {
+  int x, y;
+  // Equality, member by member.
+  bool operator==(const SampleLocation&) const = default;
+};
+
+// The pixel of space that is a target's pixel (0, 0) [S6]. Vertices, scissors, boxes and grids are in space.
+struct Origin {
+  int x = 0, y = 0;
+  // Equality, member by member.
+  bool operator==(const Origin&) const = default;
+};
+
 // Where the image goes. An empty span is an output that is not asked for. Sample n of pixel (x, y) is element
-// (y * width + x) * samples + n of every buffer. Each buffer asked for is overwritten whole; a sample without a visible
+// (y * width + x) * samples + n of every buffer; in layer l of those that have layers, it is that and l * sample_total.
+// Each buffer asked for is overwritten whole; a sample without a visible
 // triangle holds index kNoTriangle, depth +inf (-inf for greater) or the initial depth, barycentrics and attributes +0
 // [V1].
 struct Target {
@@ -262,6 +301,10 @@ struct Target {
   std::span<const float> initial_depth;         // a fragment must beat it strictly [V1]; may be the depth buffer itself
   DepthTest depth_test = DepthTest::less;
   AttributeLocation attribute_location = AttributeLocation::centre;
+  Origin origin;                                     // at most kMaxOrigin each way
+  std::span<const SampleLocation> sample_locations;  // one for each sample, 0..15; empty: the standard ones [S7]
+  int layers = 1;                                    // of index, depth, barycentrics, attributes: 1..kMaxLayers [V4]
+  std::span<std::int32_t> winding;                   // front-facing triangles minus back-facing ones that cover [M9]
 };
 
 // What the triangles of a call's draws were: each counts once, as the first that fits [M11]. It tells of the draws
@@ -280,7 +323,9 @@ struct Statistics {
 
 // Who draws. Both paths give the same image.
 enum class Path : std::uint8_t {
-  automatic,  // the fast path; the reference path only for 2^32 - 1 triangles and more in all draws together
+  automatic,  // the fast path; for layers, winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlap, touched and the
+  // index of conservative draws it finds who covers, and exact scalar code does the rest; the reference path
+  // where the target has an origin, and for 2^32 - 1 triangles and more in all draws together
   reference,  // the scalar reference path, on one thread
 };
 
@@ -355,11 +400,6 @@ Status visit_coverage(const Target& target, std::span<const Draw> draws, const C
 
 // Checks the arguments of render as render does, and draws nothing.
 Status validate(const Target& target, std::span<const Draw> draws) noexcept;
-
-// A place within a pixel, from its top left corner, in 1/16 pixel.
-struct SampleLocation {
-  int x, y;
-};
 
 // The offset of sample n of a pixel [S4]. 0 <= n < samples, else that of sample 0.
 SampleLocation sample_location(int samples, int n) noexcept;

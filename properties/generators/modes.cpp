@@ -73,16 +73,20 @@ Scene modes_scene(const Category& category, std::uint64_t seed, int max_size, in
   if (seed % 3 == 2 && scene.samples == 1) set_conservative(scene, random);
   const bool conservative = std::any_of(scene.draws.begin(), scene.draws.end(),
                                         [](const SceneDraw& draw) { return draw.conservative != Conservative::none; });
-  if (random.one_in(2)) set_origin(scene, random);
-  if (!conservative && random.one_in(2)) set_locations(scene, random);
-  if (!conservative && random.one_in(2)) {
+  // Any of them, or one alone.
+  enum Mode : std::uint32_t { kOrigin, kLocations, kLayers, kDepthTest, kMore, kBias, kModes };
+  const std::uint32_t alone = random.below(2 * kModes);
+  const auto has = [&](Mode mode, std::uint32_t n) { return alone < kModes ? mode == alone : random.one_in(n); };
+  if (has(kOrigin, 2)) set_origin(scene, random);
+  if (!conservative && has(kLocations, 2)) set_locations(scene, random);
+  if (!conservative && has(kLayers, 2)) {
     scene.layers = one_of(random, {2, 3, 5, kMaxLayers});
     for (SceneDraw& draw : scene.draws) draw.depth_write = true;
   }
-  scene.depth_test = static_cast<DepthTest>(random.below(4));
-  scene.more = {random.one_in(2), random.one_in(2), random.one_in(2)};
+  if (has(kDepthTest, 1)) scene.depth_test = static_cast<DepthTest>(random.below(4));
+  if (has(kMore, 1)) scene.more = {random.one_in(2), random.one_in(2), random.one_in(2)};
   for (SceneDraw& draw : scene.draws) {
-    if (random.one_in(3)) {
+    if (has(kBias, 3)) {
       const float constants[] = {0, 0.25f, -1, 0x1p-24f, 0x1p-149f, 3e38f, static_cast<float>(random.unit())};
       const float slopes[] = {0, 1, -2, 0.5f, 1e-3f, -3e38f, static_cast<float>(random.unit())};
       draw.depth_bias = DepthBias{one_of(random, constants), one_of(random, slopes)};

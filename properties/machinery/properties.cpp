@@ -398,7 +398,8 @@ std::span<const Property> all_properties() {
     std::vector<Property> joined;
     for (const std::span<const Property> list :
          {equality_properties(), partition_properties(), degree_properties(), symmetry_properties(), split_properties(),
-          value_properties(), frame_properties(), call_properties(), mode_properties(), output_properties(), small_world_properties()})
+          value_properties(), frame_properties(), call_properties(), mode_properties(), output_properties(),
+          small_world_properties()})
       joined.insert(joined.end(), list.begin(), list.end());
     return joined;
   }();

@@ -306,8 +306,8 @@ struct Statistics {
 // Who draws. Both paths give the same image.
 enum class Path : std::uint8_t {
   automatic,  // the fast path; for layers, winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlap, touched and the
-              // index of conservative draws it finds who covers, and exact scalar code does the rest; the reference path
-              // where the target has an origin, and for 2^32 - 1 triangles and more in all draws together
+  // index of conservative draws it finds who covers, and exact scalar code does the rest; the reference path
+  // where the target has an origin, and for 2^32 - 1 triangles and more in all draws together
   reference,  // the scalar reference path, on one thread
 };
 

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <bit>
 #include <cfenv>
 #include <cfloat>
 #include <cmath>
@@ -1515,24 +1514,6 @@ Statistics statistics_of(std::span<const Draw> draws) noexcept;
 
 }  // namespace surefill_reference
 
-// ---------------------------------------------------------------- src/streamed.hpp
-//
-// Frames whose coverage is the fast path's and whose fragments are the reference path's: those that ask for layers,
-// winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlapped or touched pixels, or the index of conservative draws.
-
-
-
-namespace surefill_reference::streamed {
-
-// Can the fast path stream the coverage of such a frame?
-bool supports(const Target& target, std::span<const Draw> draws);
-
-// As reference::render, with the threads and the memory of the options.
-Status render(const Target& target, std::span<const Draw> draws, const Options& options,
-              Diagnostics& diagnostics) noexcept;
-
-}  // namespace surefill_reference::streamed
-
 // ---------------------------------------------------------------- src/overlap.hpp
 //
 // Which memory a call writes, and whether that overlaps what it reads (B2).
@@ -2808,84 +2789,6 @@ Statistics statistics_of(std::span<const Draw> draws) noexcept {
 }
 
 }  // namespace surefill_reference
-
-// ---------------------------------------------------------------- src/streamed.cpp
-namespace surefill_reference::streamed {
-namespace {
-
-// What a block of the stream needs. Blocks of different tiles come on different threads, and share no sample.
-struct Sink {
-  const Target& target;
-  std::span<const Draw> draws;
-  Layers* layers;
-
-  static void visit(void* context, std::span<const CoverageBlock> blocks) {
-    const Sink& sink = *static_cast<const Sink*>(context);
-    const std::uint32_t number = blocks[0].draw, position = blocks[0].triangle;
-    Rungs rungs;  // those of the fragments are not told
-    DrawFragments fragments(sink.target, sink.draws[number], number, sink.layers, rungs);
-    fragments.triangle().use(sink.draws[number], position);
-    for (const CoverageBlock& block : blocks) {
-      for (std::uint64_t bits = block.mask; bits != 0; bits &= bits - 1) {
-        const int bit = std::countr_zero(bits);
-        Fragment fragment{position, block.x + (bit & 7), block.y + (bit >> 3), block.sample};
-        if (fragments.counts_of_covered(fragment)) fragments.take(fragment);
-      }
-    }
-  }
-};
-
-// Overlapped and touched pixels are among those that the triangle meets.
-Conservative streamed_mode(Conservative mode) {
-  return mode > Conservative::inner ? Conservative::over : mode;
-}
-
-// The triangles of a draw whose D is 0, which M4b draws and no stream has.
-void draw_degenerate(const Target& target, const Draw& draw, std::uint32_t number) {
-  Rungs rungs;
-  for (std::uint32_t position = 0; position < triangles_of(draw); ++position) {
-    if (!is_finite(draw, position) || orientation(draw, position) != 0) continue;
-    Draw one = draw;
-    const std::uint32_t index = index_of(draw, position);
-    one.indices = draw.indices.subspan(std::size_t{3} * position, 3);
-    one.identifiers = {}, one.first_index = index;
-    if (!draw.covered.empty()) one.covered = draw.covered.subspan(position, 1);
-    reference::draw(target, one, number, nullptr, rungs);
-  }
-}
-
-}  // namespace
-
-bool supports(const Target& target, std::span<const Draw> draws) {
-  return fast::streams(target, draws);
-}
-
-Status render(const Target& target, std::span<const Draw> draws, const Options& options,
-              Diagnostics& diagnostics) noexcept {
-  FragmentFrame frame(target, draws);
-  const std::unique_ptr<Draw[]> streamed(new (std::nothrow) Draw[draws.size()]);
-  if (streamed == nullptr || !frame.begin()) return Status::out_of_memory;
-  for (std::size_t d = 0; d < draws.size(); ++d) {
-    streamed[d] = draws[d];
-    streamed[d].conservative = streamed_mode(draws[d].conservative);
-  }
-  Target places;  // all that a stream knows of a target
-  places.width = target.width, places.height = target.height, places.samples = target.samples;
-  places.origin = target.origin, places.sample_locations = target.sample_locations;
-  Sink sink{target, draws, frame.layers()};
-  const Status status =
-      fast::visit_coverage(places, {streamed.get(), draws.size()}, {Sink::visit, &sink}, options, diagnostics);
-  if (status != Status::ok) return status;
-  for (std::size_t d = 0; d < draws.size(); ++d) {
-    if (draws[d].conservative != Conservative::touched) continue;
-    draw_degenerate(target, draws[d], static_cast<std::uint32_t>(d));
-  }
-  Rungs rungs;
-  frame.finish(rungs);
-  return Status::ok;
-}
-
-}  // namespace surefill_reference::streamed
 
 // ---------------------------------------------------------------- src/viewport.cpp
 //

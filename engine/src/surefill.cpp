@@ -13,8 +13,10 @@
 #include "float_environment.hpp"
 #include "reference.hpp"
 #include "statistics.hpp"
-#include "streamed.hpp"
 #include "surefill/diagnostics.hpp"
+#if !defined(SUREFILL_REFERENCE_ONLY)
+#include "streamed.hpp"
+#endif
 
 namespace surefill {
 namespace {

@@ -11,7 +11,8 @@
 
 namespace surefill::properties {
 
-// visit(name, scene) for three scenes of several tiles from each category; one of them has several samples a pixel.
+// visit(name, scene) for three scenes of several tiles from each category, of which one has several samples a pixel, and
+// for two in the further modes: origin, sample places, layers, depth tests, bias, outputs.
 template <typename Visit>
 void for_each_hashed_scene(Visit&& visit) {
   for (const Category& category : categories()) {
@@ -20,6 +21,10 @@ void for_each_hashed_scene(Visit&& visit) {
       limits.max_size = 180, limits.max_triangles = 12;
       limits.samples = seed == 1;
       visit(std::string("random/") + category.name + "/" + std::to_string(seed), random_scene(category, seed, limits));
+    }
+    for (std::uint64_t seed = 0; seed < 2; ++seed) {
+      visit(std::string("modes/") + category.name + "/" + std::to_string(seed),
+            modes_scene(category, 1000 + seed, 100, 8));
     }
   }
 }

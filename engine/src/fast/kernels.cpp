@@ -18,9 +18,15 @@ template <typename T>
 HWY_NOINLINE bool Holds() {
   const hn::ScalableTag<T> d;
   ContractionProbe<T> p;
-  const auto x0 = hn::Set(d, p.x), x1 = hn::Set(d, p.x), x2 = hn::Set(d, p.x), x3 = hn::Set(d, p.x);
-  const auto square = hn::Set(d, p.square), minus_square = hn::Set(d, -p.square);
-  const auto one = hn::Set(d, p.one), small = hn::Set(d, p.small);
+  // Lane by lane: of one number in all lanes a compiler may work out the product as a scalar, and contract nothing.
+  const auto lanes = [d](const volatile T& number) {
+    HWY_ALIGN T values[hn::MaxLanes(d)];
+    for (T& value : values) value = number;
+    return hn::Load(d, values);
+  };
+  const auto x0 = lanes(p.x), x1 = lanes(p.x), x2 = lanes(p.x), x3 = lanes(p.x);
+  const auto square = lanes(p.square), minus_square = hn::Neg(lanes(p.square));
+  const auto one = lanes(p.one), small = lanes(p.small);
   const auto subtracted = hn::Sub(hn::Mul(x0, x0), square);  // all are 0 as they are written
   const auto negated = hn::Sub(square, hn::Mul(x1, x1));
   const auto added = hn::Add(hn::Mul(x2, x2), minus_square);

@@ -45,7 +45,10 @@ Explained explained(const corpus::Scene& scene, const std::string& file) {
     throw std::runtime_error(
         fmt::format("{}: explain shows targets of up to {} pixels each way", file, kLargestTarget));
   }
-  const corpus::Frame frame(scene, {true, false, false, false, false});
+  if (scene.origin != Origin{} || !scene.sample_locations.empty()) {
+    throw std::runtime_error(file + ": explain shows targets at the origin, with the standard sample places");
+  }
+  const corpus::Frame frame(scene, {true, false, false, false, false, false, false});
   if (const Status status = validate(frame.target(), frame.draws()); status != Status::ok) {
     throw std::runtime_error(file + ": " + status_text(status));
   }

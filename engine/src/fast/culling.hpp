@@ -25,7 +25,7 @@ inline int reach_beyond_hull(const Draw& draw) {
   return draw.grid || draw.conservative != Conservative::none ? 2 : 0;
 }
 
-// Does the hull lie outside the region, behind the eye, or where depth is clipped? All products are exact.
+// Does the hull lie outside the region, which is one of space, behind the eye, or where depth is clipped? All products are exact.
 inline bool is_outside(const CullingBox& box, const Draw& draw, const PixelBox& region) {
   const int beyond = reach_beyond_hull(draw);
   const auto all = [&](auto is_out) {
@@ -48,7 +48,7 @@ inline bool is_outside(const CullingBox& box, const Draw& draw, const PixelBox& 
          all([](double, double, double z, double w) { return z > w; });
 }
 
-// The pixels that the hull can reach and, as the canvas keeps it, a depth that is not larger than any stored one of the
+// The pixels of the target that the hull can reach and, as the canvas keeps it, a depth that is not larger than any stored one of the
 // draw. False if a corner is not in front of the eye.
 inline bool reach_of_hull(const CullingBox& box, const DrawJob& job, PixelBox* pixels, float* nearest) {
   Reach columns{1e300, -1e300}, rows = columns, depth = columns;
@@ -65,9 +65,10 @@ inline bool reach_of_hull(const CullingBox& box, const DrawJob& job, PixelBox* p
   constexpr double kLargest = std::numeric_limits<float>::max();
   *nearest = static_cast<float>(std::clamp(z, -kLargest, kLargest));  // rounding is monotonic
   const int beyond = 1 + reach_beyond_hull(*job.draw);                // 1: more than rounding
-  *pixels = job.region;
+  *pixels = job.in_space(job.region);
   clip_to_reach({columns.low - beyond, columns.high + beyond}, 0, 1, &pixels->x0, &pixels->x1);
   clip_to_reach({rows.low - beyond, rows.high + beyond}, 0, 1, &pixels->y0, &pixels->y1);
+  *pixels = job.in_target(*pixels);
   return true;
 }
 

@@ -133,18 +133,24 @@ HWY_INLINE void StoreRange(Double low, Double high, int begin, int end, std::int
   hn::Store(RoundToInt(hn::Max(hn::Min(high, hn::Sub(most, one)), hn::Sub(least, one))), IntTag(), last);
 }
 
-// The pixels whose closed squares the triangle touches along one axis (M4), exactly, for W > 0: a quotient of float32
-// numbers that is not an integer n lies farther from n than its rounding to double can carry it (docs/precision.md).
-HWY_INLINE void TouchedRange(const float (&c)[3][kBatch], const float (&w)[3][kBatch], std::size_t lane, int begin,
-                             int end, std::int32_t* first, std::int32_t* last) {
+// The same in double: the pixels of the target with a sample at `offset` in reach or, for `squares`, whose closed squares
+// the triangle touches along one axis (M4), exactly, for W > 0: a quotient of float32 numbers that is not an integer n
+// lies farther from n than its rounding to double can carry it (docs/precision.md). `offset` is then the first square's.
+HWY_NOINLINE void DoubleRange(const float (&c)[3][kBatch], const float (&w)[3][kBatch], std::size_t lane, bool squares,
+                              double offset, int begin, int end, std::int32_t* first, std::int32_t* last) {
   const DoubleTag d;
   const FloatTag df;
   const auto quotient = [&](std::size_t k) {
     return hn::Div(hn::PromoteTo(d, hn::Load(df, c[k] + lane)), hn::PromoteTo(d, hn::Load(df, w[k] + lane)));
   };
-  const Double q0 = quotient(0), q1 = quotient(1), q2 = quotient(2);
-  StoreRange(hn::Sub(hn::Ceil(hn::Min(hn::Min(q0, q1), q2)), hn::Set(d, 1.0)), hn::Floor(hn::Max(hn::Max(q0, q1), q2)),
-             begin, end, first, last);
+  const Double q0 = quotient(0), q1 = quotient(1), q2 = quotient(2), shift = hn::Set(d, offset);
+  const Double low = hn::Min(hn::Min(q0, q1), q2), high = hn::Max(hn::Max(q0, q1), q2);
+  if (squares) {
+    StoreRange(hn::Sub(hn::Ceil(low), hn::Set(d, offset + 1)), hn::Sub(hn::Floor(high), shift), begin, end, first,
+               last);
+  } else {
+    StoreRange(hn::Ceil(hn::Sub(low, shift)), hn::Floor(hn::Sub(high, shift)), begin, end, first, last);
+  }
 }
 
 // Are the attributes of all vertices of a batch finite? As integers without their signs, infinity and NaN are larger

@@ -55,7 +55,8 @@ class Fragments {
     if (!job_->region.contains(x, y)) return false;
     const Draw& draw = *job_->draw;
     exact_.use(draw, r.position);
-    if (draw.conservative != Conservative::none) return exact_.draws_square(x, y, &rungs_);
+    if (draw.conservative != Conservative::none)
+      return exact_.draws_square(x + job_->origin.x, y + job_->origin.y, &rungs_);
     if (r.fan_triangle() != 0) return exact_.snapped().fan_covers(r.fan_triangle(), Position(x, y), job_->shift);
     return exact_.draws(Position(x, y), job_->shift, &rungs_);
   }

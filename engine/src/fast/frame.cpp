@@ -107,16 +107,20 @@ class Frame {
   DrawJob job_of(std::size_t draw) const {
     const std::uint32_t ordinal =
         draw == 0 ? 0 : jobs_[draw - 1].first_ordinal + static_cast<std::uint32_t>(triangles_of(draws_[draw - 1]));
+    const Origin& o = target_.origin;
+    PixelBox region = region_of(target_, draws_[draw]);
+    if (!region.empty()) region = {region.x0 - o.x, region.y0 - o.y, region.x1 - o.x, region.y1 - o.y};
     return {&draws_[draw],
             ordinal,
-            region_of(target_, draws_[draw]),
-            sample_,
+            region,
+            {o.x + sample_.x, o.y + sample_.y},
             tie_shift(draws_[draw].fill_rule),
             depth_,
             target_.depth_test == DepthTest::greater,
             frame_.visitor != nullptr,
             static_cast<std::uint32_t>(draw),
-            static_cast<int>(frame_.sample_number)};
+            static_cast<int>(frame_.sample_number),
+            o};
   }
 
   // ---- the stages, for one sample of every pixel
@@ -169,7 +173,7 @@ class Frame {
 
   bool skips(const DrawJob& job) const {
     const auto& box = *job.draw->culling_box;
-    if (is_outside(box, *job.draw, job.region)) return true;
+    if (is_outside(box, *job.draw, job.in_space(job.region))) return true;
     if (!depth_ || counts_ || !whole_) return false;
     return is_hidden(box, job, [this](int column, int row) { return tiles_of(row, column, column + 1); });
   }
@@ -266,8 +270,12 @@ class Frame {
 
 bool streams(const Target& target, std::span<const Draw> draws) {
   std::uint64_t triangles = 0;
-  for (const Draw& draw : draws) triangles += std::min<std::uint64_t>(triangles_of(draw), kNoTriangle);
-  return target.origin == Origin{} && triangles < kNoTriangle;
+  bool grid = false;
+  for (const Draw& draw : draws) {
+    triangles += std::min<std::uint64_t>(triangles_of(draw), kNoTriangle);
+    grid = grid || draw.grid.has_value();
+  }
+  return triangles < kNoTriangle && !(grid && target.origin != Origin{});
 }
 
 bool supports(const Target& target, std::span<const Draw> draws) {

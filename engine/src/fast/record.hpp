@@ -21,7 +21,7 @@ namespace surefill::fast {
 constexpr int kSmallExponent = 24, kTileExponent = 22;
 constexpr double kEdgeLimit = 0x1p30;  // beyond it, no step within 64 samples changes the sign
 // Bounds of the total rounding in units: half a unit for each coefficient times the steps (15 and 63 each way), half
-// for the start, and less than 2^-8 for the double arithmetic before (docs/precision.md).
+// for the start, and at most 0.26 for the double arithmetic before (docs/precision.md).
 constexpr std::int32_t kSmallBound = 16, kTileBound = 64;
 // The largest amount that decides a tie of integer edges and no other sign: their values are multiples of it.
 constexpr double kTieStep = 0x1p-12;
@@ -101,14 +101,23 @@ struct TileEdges {
 struct DrawJob {
   const Draw* draw;
   std::uint32_t first_ordinal;  // ordinal of the draw's triangle 0: its position, counted over all draws
-  PixelBox region;              // target and scissor
-  SamplePosition sample;        // within a pixel
+  PixelBox region;              // target and scissor, in pixels of the target
+  SamplePosition sample;        // of the target's pixel (0, 0), in space
   TieShift shift;
   bool depth;            // is depth kept?
   bool greater;          // is it kept negated?
   bool streams;          // no sample beyond the region may be touched
   std::uint32_t number;  // in the list of draws
   int sample_number;     // within a pixel
+  Origin origin = {};    // of the target
+
+  // The pixels of space that a box of the target's is, and the other way round.
+  PixelBox in_space(const PixelBox& box) const {
+    return {box.x0 + origin.x, box.y0 + origin.y, box.x1 + origin.x, box.y1 + origin.y};
+  }
+  PixelBox in_target(const PixelBox& box) const {
+    return {box.x0 - origin.x, box.y0 - origin.y, box.x1 - origin.x, box.y1 - origin.y};
+  }
 };
 
 }  // namespace surefill::fast

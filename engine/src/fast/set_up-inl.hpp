@@ -62,17 +62,22 @@ HWY_NOINLINE void SetUpBoxes(const DrawJob& job, const BatchVertices& vertices, 
     PixelRange(d, x, w, job.sample.x, region.x0, region.x1, batch.first_x + lane, batch.last_x + lane);
     PixelRange(d, y, w, job.sample.y, region.y0, region.y1, batch.first_y + lane, batch.last_y + lane);
   }
-  for (std::uint32_t lane = 0; over && lane < kBatch; lane += kGroup) {
-    TouchedRange(batch.x, batch.w, lane, region.x0, region.x1, batch.first_x + lane, batch.last_x + lane);
-    TouchedRange(batch.y, batch.w, lane, region.y0, region.y1, batch.first_y + lane, batch.last_y + lane);
+  const bool far = job.origin != Origin{};  // samples need not be float32 values
+  for (std::uint32_t lane = 0; HWY_UNLIKELY(far || over) && lane < kBatch; lane += kGroup) {
+    const double squares_x = job.origin.x, squares_y = job.origin.y;
+    DoubleRange(batch.x, batch.w, lane, over, over ? squares_x : job.sample.x, region.x0, region.x1,
+                batch.first_x + lane, batch.last_x + lane);
+    DoubleRange(batch.y, batch.w, lane, over, over ? squares_y : job.sample.y, region.y0, region.y1,
+                batch.first_y + lane, batch.last_y + lane);
   }
   const bool grid = job.draw->grid.has_value();
   for (std::uint32_t mixed = grid ? 0 : ~batch.front & batch.finite & all; HWY_UNLIKELY(mixed != 0);
        mixed &= mixed - 1) {
     const auto l = static_cast<std::uint32_t>(std::countr_zero(mixed));
+    const double x = job.sample.x - job.origin.x, y = job.sample.y - job.origin.y;  // within a pixel
     const PixelBox box =
-        screen_box(vertices.of(l, 0), vertices.of(l, 1), vertices.of(l, 2), region,
-                   over ? 0 : std::min(job.sample.x, job.sample.y), over ? 1 : std::max(job.sample.x, job.sample.y));
+        job.in_target(screen_box(vertices.of(l, 0), vertices.of(l, 1), vertices.of(l, 2), job.in_space(region),
+                                 over ? 0 : std::min(x, y), over ? 1 : std::max(x, y)));
     batch.first_x[l] = box.x0, batch.last_x[l] = box.x1 - 1;
     batch.first_y[l] = box.y0, batch.last_y[l] = box.y1 - 1;
   }

@@ -37,6 +37,7 @@ class Shader {
       if (!out.values.empty()) outputs_[count_++] = {out.values.data(), out.components, k};
     }
     if (target_.samples == 1) place_ = sample_offset(target_, 0);
+    place_ = {place_.x + target_.origin.x, place_.y + target_.origin.y};
     for (std::size_t l = 0; l < kCellSamples; ++l) {
       sample_[l] =
           ((l >> 2) * static_cast<std::size_t>(target_.width) + (l & 3)) * static_cast<std::size_t>(target_.samples);
@@ -299,7 +300,8 @@ class Shader {
   }
   HWY_NOINLINE void FindPlaces(const Pixels& pixels, std::uint32_t lanes) {
     for (std::size_t l = 0; l < kCellSamples; ++l) {
-      const int x = tile_x_ + cell_x_ + kColumn[l], y = tile_y_ + cell_y_ + kRow[l];
+      const int x = target_.origin.x + tile_x_ + cell_x_ + kColumn[l];
+      const int y = target_.origin.y + tile_y_ + cell_y_ + kRow[l];
       place_x_[l] = x + 0.5, place_y_[l] = y + 0.5;
       if ((lanes >> l & 1) == 0) continue;
       exact_.use(draw(), pixels.position[l]);
@@ -520,7 +522,7 @@ class Shader {
   bool has_planes_ = false;
   int tile_x_ = 0, tile_y_ = 0, columns_ = 0, rows_ = 0, cell_x_ = 0, cell_y_ = 0;
   std::size_t first_sample_ = 0;
-  SamplePosition place_{0.5, 0.5};                                    // of attributes in a pixel of one sample
+  SamplePosition place_{0.5, 0.5};  // in space, of the attributes of pixel (0, 0), where a pixel has one sample
   alignas(64) double place_x_[kCellSamples], place_y_[kCellSamples];  // and in pixels of several
   Weights weights_;
   Planes planes_[2][kPlanes];  // of triangles that were seen last in the tile: perspective, noperspective

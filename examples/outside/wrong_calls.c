@@ -155,7 +155,7 @@ static void output_is_first_strided_input(Call* c) {
   c->draws[1].vertex_stride = 16;
 }
 static void depth_test(Call* c) {
-  c->target.depth_test = 2;
+  c->target.depth_test = SUREFILL_GREATER_EQUAL + 1;
 }
 static void far_depth_test(Call* c) {
   c->target.depth_test = 256;

@@ -74,6 +74,7 @@ TEST(Zoo, PicturesShowWhatFindingsSay) {
   std::set<std::string_view> shown, properties;
   for (const Property& property : all_properties()) {
     if (property.needs_oracle || !property.simplifies) continue;
+    if (property.name == std::string_view("numbers-add-up")) continue;  // sums of a whole frame are of no pixel
     properties.insert(property.name);
     for (const zoo::Specimen& specimen : zoo::specimens()) {
       // What these draw depends on the frame before.

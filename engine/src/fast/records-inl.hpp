@@ -155,7 +155,7 @@ class PieceWriter {
       const double y = ty * kTileSize + job_.sample.y;
       for (int tx = tx0; tx <= tx1; tx += static_cast<int>(kGroup)) {
         const Double x = hn::Add(hn::Set(d, tx * kTileSize + job_.sample.x), steps);
-        auto outside = hn::Lt(x, hn::Zero(d));
+        auto outside = hn::Lt(x, x);  // none
         for (std::size_t k = 0; k < 3; ++k) {
           const Double e = hn::Add(hn::Mul(a[k], x), hn::Set(d, r.large.b[k] * y + r.large.c[k]));
           outside = hn::Or(outside, hn::Lt(e, least[k]));

@@ -24,6 +24,7 @@
 #include "certify/commands/explain.hpp"
 #include "certify/commands/options.hpp"
 #include "certify/commands/replay.hpp"
+#include "certify/commands/vectors_command.hpp"
 #include "certify/report/picture.hpp"
 #include "certify/report/report.hpp"
 #include "certify/rivals/host.hpp"
@@ -346,6 +347,11 @@ int run(int argc, char** argv) {
   add_command->add_option("--group", corpus_options.group, "Folder within cases/ (found)");
   add_command->add_option("--corpus", corpus_options.corpus, "Folder of cases/ and meshes/");
 
+  VectorsOptions vectors_options;
+  const CLI::App* vectors_command = add_vectors_command(app, vectors_options);
+  VerifyOptions verify_options;
+  const CLI::App* verify_command = add_verify_command(app, verify_options);
+
   try {
     refuse_empty_values(app, argc, argv);
     app.parse(argc, argv);
@@ -355,7 +361,8 @@ int run(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     throw UsageError(
-        "a subcommand is needed: render, certify, merge, replay, reduce or explain (--help shows the usage)");
+        "a subcommand is needed: render, certify, merge, replay, reduce, explain, vectors or verify (--help shows the "
+        "usage)");
   }
   if (render_command->parsed()) return run_render(render_options);
   if (certify_command->parsed()) return run_certify(certify_options, find_corpus);
@@ -366,6 +373,8 @@ int run(int argc, char** argv) {
     return kGood;
   }
   if (replay_command->parsed()) return run_replay(replay_files, replay_options, replay_rival);
+  if (vectors_command->parsed()) return run_vectors(vectors_options, find_corpus);
+  if (verify_command->parsed()) return run_verify(verify_options, find_corpus);
   if (add_command->parsed()) {
     if (corpus_options.corpus.empty()) corpus_options.corpus = find_corpus();
     print(add_to_corpus(corpus_options) + "\n");

@@ -145,10 +145,11 @@ void force_target(std::int64_t target) {
 }
 
 // The same on one of Highway's targets.
-void target_draws(benchmark::State& state, const std::string& name, Output output, std::int64_t target) {
+void target_draws(benchmark::State& state, const std::string& name, Output output, const Options& options,
+                  std::int64_t target) {
   if ((hwy::SupportedTargets() & target) == 0) return state.SkipWithError("this machine has it not");
   force_target(target);
-  surefill_draws(state, name, output, {});
+  surefill_draws(state, name, output, options);
   force_target(0);
 }
 
@@ -211,7 +212,7 @@ void add_both(const std::string& name, const Options& options) {
   using State = benchmark::State;
   const auto with = [&](Output output) { return [=](State& state) { surefill_draws(state, name, output, options); }; };
   const auto on_avx2 = [&](Output output) {
-    return [=](State& state) { target_draws(state, name, output, HWY_AVX2); };
+    return [=](State& state) { target_draws(state, name, output, options, HWY_AVX2); };
   };
   add(name + "/count/surefill", with(Output::count));
   add(name + "/depth/surefill", with(Output::depth));
@@ -222,6 +223,7 @@ void add_both(const std::string& name, const Options& options) {
   if (options.threads != 1) return;
   add(name + "/depth/unclipped",
       [=](State& state) { surefill_draws(state, name, Output::depth, options, Mode::unclipped); });
+  add(name + "/depth/alone", [=](State& state) { surefill_draws(state, name, Output::depth, {}); });
   if ((hwy::SupportedTargets() & (HWY_AVX3 | HWY_AVX3_DL)) == 0) return;  // else it is the row above
   add(name + "/depth/AVX2", on_avx2(Output::depth));
   add(name + "/visibility/AVX2", on_avx2(Output::visibility));
@@ -230,7 +232,9 @@ void add_both(const std::string& name, const Options& options) {
 
 void add_all() {
   using State = benchmark::State;
-  const Options options{.threads = threads()};
+  // Calls share a context, as those of llvmpipe do.
+  static Context context;
+  const Options options{.threads = threads(), .context = &context};
   const bool one = options.threads == 1;
   for (int number = 1; number <= kWorkloads; ++number) {
     const std::string free = "W" + std::to_string(number);
@@ -256,12 +260,10 @@ void add_all() {
     add(name + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
     add(name + "/attributes/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, true); });
   }
-  static Context context;
   for (const char* const size : {"1000", "10000", "100000", "1000000", "10000000"}) {
     const std::string name = std::string("small/") + size;
     add(name + "/depth/surefill", [=](State& state) { surefill_draws(state, name, Output::depth, options); });
-    add(name + "/depth/context",
-        [=](State& state) { surefill_draws(state, name, Output::depth, {.threads = 1, .context = &context}); });
+    add(name + "/depth/alone", [=](State& state) { surefill_draws(state, name, Output::depth, {}); });
   }
   add("memory/depth/limit", memory_limit);
   add("memory/depth/written", memory_written);

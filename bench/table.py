@@ -79,6 +79,7 @@ def rows(one, two):
         at_least("AVX2: visibility", *seen, ratio("depth/llvmpipe", "visibility/AVX2")),
         at_least("AVX2: visibility + 4 attributes", *shaded, ratio("attributes/llvmpipe", "attributes/AVX2")),
         at_most("depth clipped, times unclipped", 1.05, ratio("depth/surefill", "depth/unclipped")),
+        ("depth without a context, times with", "", "", {w: f"{r:.2f} x" for w, r in ratio("depth/alone", "depth/surefill").items()}, {}),
         at_most("visibility, times depth", 1.25, ratio("visibility/surefill", "depth/surefill")),
         at_most("counts, times depth", 1.1, ratio("count/surefill", "depth/surefill")),
         at_most("Grid of 8 bits, times the time without", 1.25, ratio("depth/grid", "depth/surefill")),
@@ -115,7 +116,7 @@ def instructions(program):
 
 def sizes(one):
     return {int(name.split("/")[1]): one[name][0] * 1e6 / int(name.split("/")[1])
-            for name in one if name.startswith("small/")}
+            for name in one if name.startswith("small/") and name.endswith("/depth/surefill")}
 
 
 def text_of(table, one, two, machine, counted):
@@ -133,10 +134,10 @@ def text_of(table, one, two, machine, counted):
             lines.append(f"spot, {output}, against llvmpipe: " + ", ".join(f"{h} pixels high {r:.1f} x" for h, r in spot.items()))
     for name, instructions_of in counted.items():
         lines.append(f"instructions of a drawing, {name}, depth, by valgrind: {instructions_of:,}")
-    if "small/1000/depth/context" in one and "memory/depth/written" in one:
+    if "small/1000/depth/alone" in one and "memory/depth/written" in one:
         written = one["memory/depth/written"][0]
         lines.append(f"1000 triangles, depth: {one['small/1000/depth/surefill'][0] / written:.1f} times the time to write the output, "
-                     f"{one['small/1000/depth/context'][0] / written:.1f} with a context")
+                     f"{one['small/1000/depth/alone'][0] / written:.1f} without a context")
     per = sizes(one)
     if per:
         lines.append("ns a triangle of 10 pixels: " + ", ".join(f"{n:,}: {ns:.0f}" for n, ns in sorted(per.items())))

@@ -44,7 +44,7 @@ HWY_INLINE std::uint32_t Bits(D d, M mask) {
 
 // A vertex of as many triangles as D has lanes; or four components of an attribute there.
 template <class D>
-struct Corner {
+struct VertexLanes {
   hn::Vec<D> x, y, z, w;
 };
 
@@ -58,8 +58,8 @@ struct BatchVertices {
 
 // Four floats of each lane, from where `of(lane)` points.
 template <class D, class Of>
-HWY_INLINE Corner<D> LoadFours(D d, const Of& of) {
-  Corner<D> corner;
+HWY_INLINE VertexLanes<D> LoadFours(D d, const Of& of) {
+  VertexLanes<D> v;
 #if HWY_TARGET != HWY_SCALAR
   if constexpr (hn::MaxLanes(D()) >= 4) {
     const hn::Repartition<double, D> d64;
@@ -77,22 +77,22 @@ HWY_INLINE Corner<D> LoadFours(D d, const Of& of) {
     const auto xy23 = hn::BitCast(d64, hn::InterleaveLower(d, r2, r3));
     const auto zw01 = hn::BitCast(d64, hn::InterleaveUpper(d, r0, r1));
     const auto zw23 = hn::BitCast(d64, hn::InterleaveUpper(d, r2, r3));
-    corner.x = hn::BitCast(d, hn::InterleaveLower(d64, xy01, xy23));
-    corner.y = hn::BitCast(d, hn::InterleaveUpper(d64, xy01, xy23));
-    corner.z = hn::BitCast(d, hn::InterleaveLower(d64, zw01, zw23));
-    corner.w = hn::BitCast(d, hn::InterleaveUpper(d64, zw01, zw23));
-    return corner;
+    v.x = hn::BitCast(d, hn::InterleaveLower(d64, xy01, xy23));
+    v.y = hn::BitCast(d, hn::InterleaveUpper(d64, xy01, xy23));
+    v.z = hn::BitCast(d, hn::InterleaveLower(d64, zw01, zw23));
+    v.w = hn::BitCast(d, hn::InterleaveUpper(d64, zw01, zw23));
+    return v;
   }
 #endif
   alignas(16) float lanes[4 * hn::MaxLanes(D())];
   for (std::size_t l = 0; l < hn::Lanes(d); ++l) std::memcpy(lanes + 4 * l, of(l), 4 * sizeof(float));
-  hn::LoadInterleaved4(d, lanes, corner.x, corner.y, corner.z, corner.w);
-  return corner;
+  hn::LoadInterleaved4(d, lanes, v.x, v.y, v.z, v.w);
+  return v;
 }
 
 // Vertex k of lanes lane ...
 template <class D>
-HWY_INLINE Corner<D> LoadCorner(D d, const BatchVertices& vertices, std::size_t lane, std::size_t k) {
+HWY_INLINE VertexLanes<D> LoadVertex(D d, const BatchVertices& vertices, std::size_t lane, std::size_t k) {
   return LoadFours(d, [&](std::size_t l) { return &vertices.of(lane + l, k).x; });
 }
 

@@ -32,7 +32,7 @@ HWY_NOINLINE void LoadVertices(const BatchVertices& vertices, Batch& batch) {
     auto sum = zero;
     auto front = hn::Eq(zero, zero);
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto v = LoadCorner(d, vertices, lane, k);
+      const auto v = LoadVertex(d, vertices, lane, k);
       hn::Store(v.x, d, batch.x[k] + lane), hn::Store(v.y, d, batch.y[k] + lane);
       hn::Store(v.z, d, batch.z[k] + lane), hn::Store(v.w, d, batch.w[k] + lane);
       // 0 times a number is 0; times an infinity or a NaN it is a NaN, and so is the sum (B1).

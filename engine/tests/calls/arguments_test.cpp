@@ -96,6 +96,19 @@ Status status_of(std::span<const Draw> draws) {
   return expected;
 }
 
+// At any place among indices that are good.
+TEST(Indices, NameVertices) {
+  for (const std::uint32_t wrong :
+       {3u, 4u, 0x7FFFFFFFu, 0x80000000u, 0x80000002u, 0x80000003u, 0xFFFFFFFEu, 0xFFFFFFFFu}) {
+    for (std::size_t at = 0; at < 3 * 7; ++at) {
+      Frame frame(7);
+      EXPECT_EQ(status_of({&frame.draw, 1}), Status::ok);
+      frame.indices[at] = wrong;
+      EXPECT_EQ(status_of({&frame.draw, 1}), Status::draw_index_out_of_range) << wrong << " at " << at;
+    }
+  }
+}
+
 TEST(NoTriangle, IsNoIdentifier) {
   // Long enough that vector code has whole vectors and a rest.
   for (const std::size_t triangles : {1u, 2u, 7u, 40u}) {

@@ -12,7 +12,7 @@ reference: every mutant is killed, or mutation/schemata/equivalent.txt says why 
 fast: a probe of an hour. A sample is drawn by --seed; killed and not killed are counted, and those that live are named.
   Many of them change nothing but speed, and nobody keeps a list of those. Exit 0.
 
-usage: mutation/schemata.py [--path reference|fast] [--seconds S] [--jobs N] [--only TEXT] [--list]
+usage: mutation/schemata.py [--path reference|fast] [--seconds S] [--jobs N] [--only TEXT,...] [--list]
                             [--shard I/N]               (reference)
                             [--sample N] [--seed S]     (fast; 200 mutants, seed 1)
 Exit 2 if the program cannot be built.
@@ -326,6 +326,12 @@ def run_program(path, everyone, numbers, arguments, tell):
         list(pool.map(run, [numbers[i::arguments.jobs] for i in range(arguments.jobs)]))
 
 
+def wanted_by(arguments):
+    """Whether a mutant is one of those that --only names."""
+    texts = arguments.only.split(",")
+    return lambda m: any(text in m.name for text in texts)
+
+
 def run_reference(path, everyone, arguments):
     explained, by_name = equivalents(everyone)
     if arguments.list:
@@ -334,7 +340,7 @@ def run_reference(path, everyone, arguments):
         return 0
     index, count = map(int, arguments.shard.split("/"))
     in_program = build(path, everyone, arguments.jobs)
-    mine = [n for n in in_program if n % count == index % count and arguments.only in everyone[n - 1].name]
+    mine = [n for n in in_program if n % count == index % count and wanted_by(arguments)(everyone[n - 1])]
     results_file = path.work / "results.txt"
     results = dict(line.rsplit("\t", 1) for line in results_file.read_text().splitlines()) if results_file.is_file() else {}
     killed = lambda n: results.get(everyone[n - 1].name, "").startswith("killed")
@@ -364,7 +370,7 @@ def run_fast(path, everyone, arguments):
         for number, m in enumerate(everyone, 1):
             print(f"{number} {m.name}")
         return 0
-    in_program = [n for n in build(path, everyone, arguments.jobs) if arguments.only in everyone[n - 1].name]
+    in_program = [n for n in build(path, everyone, arguments.jobs) if wanted_by(arguments)(everyone[n - 1])]
     sample = sorted(random.Random(arguments.seed).sample(in_program, min(arguments.sample, len(in_program))))
     outcomes = Counter()
 
@@ -391,7 +397,7 @@ def main():
     parser.add_argument("--sample", type=int, default=200, help="so many mutants of the fast path (200)")
     parser.add_argument("--seed", type=int, default=1, help="that draws the sample (1)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
-    parser.add_argument("--only", default="", help="mutants whose name holds this text")
+    parser.add_argument("--only", default="", help="mutants whose name holds this text, or one of several with commas between")
     parser.add_argument("--list", action="store_true", help="show the mutants, run none")
     arguments = parser.parse_args()
     return max(run_path(PATHS[name], arguments) for name in ([arguments.path] if arguments.path else PATHS))

@@ -202,6 +202,40 @@ int draw_only(const std::string& name, int times, const std::string& output, con
   return 0;
 }
 
+// The largest amount of memory that this process has had since the last reset, in MiB; 0 where the system tells nobody.
+double peak_memory(bool reset) {
+  if (reset) std::ofstream("/proc/self/clear_refs") << "5";
+  std::string line;
+  for (std::ifstream file("/proc/self/status"); std::getline(file, line);) {
+    if (line.rfind("VmHWM:", 0) == 0) return std::atof(line.c_str() + 6) / 1024;
+  }
+  return 0;
+}
+
+// What a call takes, beside what the header allows, with counts, depth and visibility of a square of so many pixels each
+// way, or of the screen if that is 0. Returns the exit status.
+int measure_memory(const std::string& name, int size, int call_threads) {
+  const Workload& work = workload(name);
+  Target target;
+  target.width = size > 0 ? size : kWidth, target.height = size > 0 ? size : kHeight;
+  const std::size_t samples = static_cast<std::size_t>(target.width) * static_cast<std::size_t>(target.height);
+  std::vector<std::uint32_t> count(samples), index(samples);
+  std::vector<float> depth(samples);
+  target.count = count, target.index = index, target.depth = depth;
+  std::vector<Vertex> vertices = work.vertices;  // as large as the target
+  for (Vertex& v : vertices)
+    v.x *= static_cast<float>(target.width) / kWidth, v.y *= static_cast<float>(target.height) / kHeight;
+  Draw draw;
+  draw.vertices = vertices, draw.indices = work.indices, draw.depth_mode = DepthMode::clip;
+  const double before = peak_memory(true);
+  if (render(target, {&draw, 1}, nullptr, {.threads = call_threads}) != Status::ok) return 1;
+  const double taken = peak_memory(false) - before;
+  const double allowed = 12 * static_cast<double>(samples) / (1 << 20) + 32 + call_threads;
+  std::printf("%s, %d x %d, %d threads: %.1f MiB taken, %.1f allowed\n", name.c_str(), target.width, target.height,
+              call_threads, taken, allowed);
+  return taken <= allowed ? 0 : 1;
+}
+
 template <typename Run>
 void add(const std::string& name, const Run& run) {
   benchmark::RegisterBenchmark(name.c_str(), run)->Unit(benchmark::kMillisecond)->UseRealTime();
@@ -287,11 +321,13 @@ void add_context() {
 }  // namespace
 }  // namespace surefill::bench
 
-// surefill_bench --draw NAME TIMES [OUTPUT [AVX2]]: see draw_only.
+// surefill_bench --draw NAME TIMES [OUTPUT [AVX2]]: see draw_only. --memory NAME SIZE THREADS: see measure_memory.
 int main(int argc, char** argv) {
   if (argc >= 4 && argc <= 6 && std::string(argv[1]) == "--draw")
     return surefill::bench::draw_only(argv[2], std::atoi(argv[3]), argc > 4 ? argv[4] : "depth",
                                       argc > 5 ? argv[5] : "");
+  if (argc == 5 && std::string(argv[1]) == "--memory")
+    return surefill::bench::measure_memory(argv[2], std::atoi(argv[3]), std::atoi(argv[4]));
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   surefill::bench::add_context();

@@ -526,14 +526,12 @@ std::optional<Bytes> encode_samples(const Scene& scene) {
 
 constexpr int kLargeSide = 32;
 
-// Takes out what Path::automatic leaves to the reference path.
+// Takes out what Path::automatic leaves to the reference path, and layers of large frames, which take long.
 void leave_to_fast_path(Scene& scene) {
-  scene.depth_test = reversed_bit(scene.depth_test) != 0 ? DepthTest::greater : DepthTest::less;
-  scene.origin = {}, scene.sample_locations.clear(), scene.layers = 1, scene.more = {};
-  for (SceneDraw& draw : scene.draws) {
-    draw.depth_bias.reset();
-    if (draw.conservative > Conservative::inner) draw.conservative = Conservative::over;
-  }
+  const bool grid =
+      std::any_of(scene.draws.begin(), scene.draws.end(), [](const SceneDraw& draw) { return draw.grid.has_value(); });
+  if (grid) scene.origin = {};
+  if (std::max(scene.width, scene.height) > kLargeSide) scene.layers = 1;
 }
 
 Scene decode_paths(std::span<const std::uint8_t> bytes) {
@@ -544,6 +542,7 @@ Scene decode_paths(std::span<const std::uint8_t> bytes) {
   scene.height = kPathSides[sides >> 3 & 7u];
   if (scene.width > kLargeSide && scene.height > kLargeSide) scene.height = kPathSides[0];
   while (scene.width * scene.height * scene.samples > kMostPathSamples) scene.samples /= 2;
+  if (!scene.sample_locations.empty()) scene.sample_locations.resize(static_cast<std::size_t>(scene.samples));
   leave_to_fast_path(scene);
   if (scene.initial_depth.size() > 1)
     scene.initial_depth.erase(scene.initial_depth.begin() + 1, scene.initial_depth.end());

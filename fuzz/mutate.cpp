@@ -406,6 +406,38 @@ constexpr Mutation kMutations[] = {
     cross_depths,
 };
 
+// One of the modes of a frame or of a draw beyond the plain one. Where they do not go together the form refuses the scene.
+void change_mode(Scene& scene, Random& random) {
+  SceneDraw& draw = any_draw(scene, random);
+  switch (random.below(7)) {
+    case 0:
+      scene.origin = random.one_in(2) ? Origin{random.between(-9, 9), random.between(-9, 9)}
+                                      : Origin{random.between(-kMaxOrigin, kMaxOrigin), random.between(0, 3)};
+      break;
+    case 1:
+      scene.sample_locations.clear();
+      for (int n = 0; n < scene.samples && !random.one_in(16); ++n)
+        scene.sample_locations.push_back({random.between(0, 15), random.between(0, 15)});
+      break;
+    case 2:
+      scene.layers = random.one_in(4) ? 1 : random.between(2, kMaxLayers);
+      for (SceneDraw& other : scene.draws) other.depth_write = true;
+      break;
+    case 3:
+      scene.depth_test = static_cast<DepthTest>(random.below(4));
+      break;
+    case 4:
+      scene.more = {random.one_in(2), random.one_in(2), random.one_in(2)};
+      break;
+    case 5:
+      draw.depth_bias =
+          DepthBias{static_cast<float>(random.between(-16, 16)) / 8, static_cast<float>(random.between(-16, 16)) / 8};
+      break;
+    default:
+      if (draw.conservative != Conservative::none) draw.conservative = static_cast<Conservative>(1 + random.below(4));
+  }
+}
+
 bool plain() {
   static const bool is_plain = std::getenv("SUREFILL_FUZZ_PLAIN") != nullptr;
   return is_plain;
@@ -490,6 +522,8 @@ std::size_t mutate_bytes(const Form& form, std::uint8_t* data, std::size_t size,
         form.sides[random.below(static_cast<std::uint32_t>(form.sides.size()))];
   } else if (form.grows && random.one_in(8)) {
     add_triangle(scene, random);
+  } else if (form.grows && random.one_in(8)) {
+    change_mode(scene, random);
   } else {
     mutate(scene, random);
   }

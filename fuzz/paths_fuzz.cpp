@@ -53,7 +53,10 @@ std::vector<CoverageBlock> stream_of(const corpus::Scene& scene, std::span<const
   };
   Target target;
   target.width = scene.width, target.height = scene.height, target.samples = scene.samples;
-  if (visit_coverage(target, draws, {visit, &sink}, nullptr, options) != Status::ok)
+  target.origin = scene.origin, target.sample_locations = scene.sample_locations;
+  std::vector<Draw> alone(draws.begin(), draws.end());  // a stream has no numbers of triangles
+  for (Draw& draw : alone) draw.covered = draw.visible = {};
+  if (visit_coverage(target, alone, {visit, &sink}, nullptr, options) != Status::ok)
     report_finding("paths", "visit_coverage refuses a valid scene", corpus::write_scene(scene));
   std::sort(sink.blocks.begin(), sink.blocks.end(),
             [](const CoverageBlock& a, const CoverageBlock& b) { return key(a) < key(b); });

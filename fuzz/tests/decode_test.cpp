@@ -145,7 +145,10 @@ end
 // One scene with everything that the form has a place for.
 const char* const kEverything = R"(surefill-scene 1
 target 3 2
-depth-test greater
+depth-test greater-equal
+origin -4194304 7
+sample-locations 15 0
+outputs winding numbers conservative-index
 attribute-location centroid
 initial-depth 0x1p-1 0 -0 inf nan 2
 attribute a0 2 noperspective
@@ -159,6 +162,7 @@ depth-mode clamp
 depth-write off
 scissor -3 0 126 2147483647
 grid 4 15 3 nearest-up
+depth-bias -0 0x1p-149
 first-index 4294967290
 vertex 0 0 0 1 1 2 3
 vertex 1 0 0 -1 0x1p-149 nan -inf
@@ -188,6 +192,11 @@ TEST(DecodeScene, EverythingOfTheFormatHasAPlace) {
   conservative.draws.emplace_back().conservative = Conservative::inner;
   ASSERT_TRUE(encode_scene(conservative));
   EXPECT_TRUE(corpus::equal(decode_scene(*encode_scene(conservative)), conservative));
+  Scene layered;
+  layered.layers = kMaxLayers;
+  layered.draws.emplace_back();
+  ASSERT_TRUE(encode_scene(layered));
+  EXPECT_TRUE(corpus::equal(decode_scene(*encode_scene(layered)), layered));
 }
 
 TEST(DecodeScene, WhatDoesNotFitIsRefused) {
@@ -222,6 +231,9 @@ TEST(DecodeScene, TrianglesOfASceneAreSeeds) {
   }
   EXPECT_EQ(singles[0].draws[0].vertices[1].x, 0.0f);  // 1 * 8 - 1 * (0 + 8): S3
   EXPECT_FALSE(encode_triangle(scene));
+  Scene elsewhere = singles[1];
+  elsewhere.origin.x = 1;
+  EXPECT_FALSE(encode_triangle(elsewhere));
 }
 
 TEST(Mutate, KeepsScenesInTheirForm) {

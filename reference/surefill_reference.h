@@ -85,9 +85,9 @@ Status render(const Target& target, std::span<const Draw> draws,
 Status render(const Target& target, std::span<const Draw> draws, Statistics* statistics,
                            const Options& options) noexcept;
 
-inline constexpr int kMaxTargetSize = 16384;  // pixels, each way
-inline constexpr int kMaxOrigin = 1 << 22;    // pixels, each way and sign
-inline constexpr int kMaxLayers = 16;
+inline constexpr int kMaxTargetSize = 16384;               // pixels, each way
+inline constexpr int kMaxOrigin = 1 << 22;                 // pixels, each way and sign
+inline constexpr int kMaxLayers = 16;                      // of a frame [V4]
 inline constexpr std::size_t kMaxAttributes = 16;          // attribute arrays of a draw
 inline constexpr std::uint32_t kMaxComponents = 4;         // floats of one attribute
 inline constexpr std::uint32_t kNoTriangle = 0xFFFFFFFFu;  // the index of an empty sample [V1]

@@ -39,7 +39,7 @@ extern "C" {
 /* Threads of a call. */
 #define SUREFILL_MAX_THREADS 256
 #define SUREFILL_MAX_ORIGIN 4194304 /* pixels, each way and sign */
-#define SUREFILL_MAX_LAYERS 16
+#define SUREFILL_MAX_LAYERS 16      /* of a frame [V4] */
 
 /* What a call returns: the argument at fault. Numbers are never reused. */
 typedef enum surefill_status {

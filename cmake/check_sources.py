@@ -40,10 +40,12 @@ ROOMS = {
     "proofs": SUITE,
     "elsewhere": [*ENGINE, "corpus", "properties"],
     "certify/adapter.h": [],
+    "certify/adapter2.h": ["certify/adapter.h"],
     "certify/drivers": ["certify/adapter.h"],  # plugins: all they know of the suite
-    "examples/rivals": ["certify/adapter.h"],  # the same
+    "examples/rivals": ["certify/adapter.h", "certify/adapter2.h"],  # the same
     "certify/judge": [*ENGINE, "corpus", "oracle/edges.hpp", "oracle/model.hpp"],  # a library without an oracle, files or processes
-    "certify": [*SUITE, "oracle/model.hpp", "textbook", "certify/adapter.h", "certify/judge", "mutation/zoo/zoo.hpp"],
+    "certify": [*SUITE, "oracle/model.hpp", "textbook", "certify/adapter.h", "certify/adapter2.h", "certify/judge",
+                "mutation/zoo/zoo.hpp"],
     "reference/surefill_reference.h": [],  # the engine's reference path in one file: it stands alone
     "reference": ["reference/surefill_reference.h"],
     "bench": [*ENGINE, "corpus", "hwy"],
@@ -56,7 +58,8 @@ ROOMS = {
     "corpus/tests": SUITE,
     "textbook/tests": [*SUITE, "engine/src/exact", "textbook"],
     "properties/tests": SUITE,
-    "certify/tests": [*SUITE, "oracle/model.hpp", "certify/judge", "textbook", "certify", "certify/adapter.h", "mutation"],
+    "certify/tests": [*SUITE, "oracle/model.hpp", "certify/judge", "textbook", "certify", "certify/adapter.h", "certify/adapter2.h",
+                      "mutation"],
     "fuzz/tests": [*SUITE, "certify", "fuzz"],
     "mutation/tests": [*SUITE, "certify", "certify/adapter.h", "mutation", "mutation/zoo/zoo.hpp"],
     "mutation/schemata": [*SUITE, "certify", "engine/tests", "hwy"],  # a suite of its own, of the engine's tests among others

@@ -41,7 +41,8 @@ if(SUREFILL_TBB)
 endif()
 
 # Those of the command run the built one, with rivals.
-set(test_plugins surefill_engine_plugin surefill_zoo surefill_fixed_point surefill_float_edges)
+set(test_plugins surefill_engine_plugin surefill_second_plugin surefill_zoo surefill_fixed_point surefill_float_edges
+  surefill_stated_model)
 add_dependencies(surefill_tests surefill_command surefill_zoo_command ${test_plugins})
 foreach(plugin surefill_opengl surefill_vulkan)
   if(TARGET ${plugin})
@@ -53,6 +54,7 @@ define_for(${tests}/certify/tests/adapter_test.cpp ${tests}/certify/tests/comman
   DEFINE SUREFILL_COMMAND="$<TARGET_FILE:surefill_command>"
   SUREFILL_ZOO_COMMAND="$<TARGET_FILE:surefill_zoo_command>"
   SUREFILL_ZOO_PLUGIN="$<TARGET_FILE:surefill_zoo>" SUREFILL_ENGINE_PLUGIN="$<TARGET_FILE:surefill_engine_plugin>"
+  SUREFILL_SECOND_PLUGIN="$<TARGET_FILE:surefill_second_plugin>" SUREFILL_STATED_MODEL="$<TARGET_FILE:surefill_stated_model>"
   SUREFILL_FIXED_POINT="$<TARGET_FILE:surefill_fixed_point>" SUREFILL_FLOAT_EDGES="$<TARGET_FILE:surefill_float_edges>"
   SUREFILL_CERTIFICATES="${PROJECT_SOURCE_DIR}/docs/certificates"
   SUREFILL_PYTHON_RIVAL="${PROJECT_SOURCE_DIR}/examples/rivals/rasterizer.py")

@@ -29,11 +29,12 @@ surefill_adapter_image image_of(std::uint32_t outputs, std::vector<float*>& attr
   return image;
 }
 
-void check(const Words& words) {
+void check(const Words& words, std::uint32_t version) {
   constexpr std::uint32_t kKnownOutputs = 31;
-  constexpr std::size_t kHasInitialDepth = 8;  // the word that says so
+  const bool second = version == SUREFILL_ADAPTER2_VERSION;
+  const std::size_t has_initial_depth = second ? 10 : 8;  // the word that says so
   adapters::DecodedScene decoded;
-  if (!adapters::decode_scene(words, decoded)) return;
+  if (!adapters::decode_scene(words, decoded, version)) return;
   const surefill_adapter_scene& scene = decoded.scene;
   using Wide = unsigned __int128;
   if (scene.initial_depth != nullptr && Wide{scene.width} * scene.height * scene.samples > words.size()) {
@@ -47,10 +48,14 @@ void check(const Words& words) {
   }
   if (scene.draw_count == 0) return;  // attributes without draws are not told apart
   std::vector<float*> attributes;
-  Words again = adapters::scene_words(scene, image_of(decoded.outputs, attributes));
+  const adapters::SceneOfVersion2 seen(scene);
+  if (seen.scene().draw_count != scene.draw_count) report_finding("adapter", "another number of draws in version 2");
+  Words again = adapters::scene_words(scene, image_of(decoded.outputs, attributes), version);
   Words expected = words;
-  expected[0] &= kKnownOutputs;
-  expected[kHasInitialDepth] = expected[kHasInitialDepth] != 0 ? 1 : 0;
+  if (second && again.size() != expected.size()) return;  // headers with words that are not known
+  expected[second ? 1 : 0] &= kKnownOutputs;
+  if (second) expected[2] = 0;
+  expected[has_initial_depth] = expected[has_initial_depth] != 0 ? 1 : 0;
   if (again != expected) report_finding("adapter", "the scene that was written again is another one");
 }
 
@@ -60,6 +65,7 @@ void check(const Words& words) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<std::uint32_t> words(size / 4);
   if (!words.empty()) std::memcpy(words.data(), data, 4 * words.size());
-  surefill::fuzz::check(words);
+  surefill::fuzz::check(words, SUREFILL_ADAPTER_VERSION);
+  surefill::fuzz::check(words, SUREFILL_ADAPTER2_VERSION);
   return 0;
 }

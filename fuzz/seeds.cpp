@@ -160,6 +160,11 @@ void add_texts(SeedWriter& seeds) {
   Bytes bytes((std::size(kWords) + kStateOfDraw + kNumbersOfVertices + kIndicesAndIdentifier) * 4);
   for (std::size_t i = 0; i < std::size(kWords); ++i) bytes[4 * i] = kWords[i];
   seeds.add("adapter", "triangle", bytes);
+  // The same in version 2: its headers have 11 and 28 words, and begin with these numbers.
+  constexpr std::uint8_t kWords2[] = {11, 31, 0, 4, 4, 1, 0, 0, 0, 1, 0, 28, 0, 3, 1};
+  Bytes bytes2((std::size(kWords2) + kStateOfDraw + kNumbersOfVertices + kIndicesAndIdentifier) * 4);
+  for (std::size_t i = 0; i < std::size(kWords2); ++i) bytes2[4 * i] = kWords2[i];
+  seeds.add("adapter", "triangle-2", bytes2);
   // Its samples are 2^31 * 2^31 * 4, which is 0 in 64 bits: as many initial depths as the message has words left.
   constexpr std::uint32_t kOverflow[] = {4, 1u << 31, 1u << 31, 4, 0, 0, 0, 0, 1};
   Bytes overflow;

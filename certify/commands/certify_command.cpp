@@ -121,7 +121,9 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
                      Facts& facts) {
   facts.rival = rival.info().name;
   facts.rival_version = rival.info().version;
-  facts.declared_model = subject.declared ? adapters::describe_model(declared) : "none";
+  facts.declared_model = rival.stated()     ? judge::describe(*rival.stated())
+                         : subject.declared ? adapters::describe_model(declared)
+                                            : "none";
   const judge::Inference& found = subject.inference.judged;
   facts.inferred_model = subject.inference.fits ? adapters::describe_model(subject.inference.model)
                          : found.known          ? judge::describe(found.model)

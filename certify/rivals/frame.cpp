@@ -82,7 +82,8 @@ constexpr const char* kFeatureNames[] = {"vertices with W <= 0",
                                          "conservative rasterization, inner",
                                          "fill rules of draws",
                                          "grids of draws",
-                                         "NaN and infinities"};
+                                         "NaN and infinities",
+                                         "fill rules closed and open"};
 
 // What version 1 of the adapter has no word for, of a frame.
 const char* mode_without_word(const Target& target, std::span<const Draw> draws) {
@@ -177,6 +178,7 @@ std::uint32_t needed_features(const Target& target, std::span<const Draw> draws)
   for (const Draw& draw : draws) {
     features |= features_of(draw, target.attributes.size());
     need(draw.fill_rule != FillRule::top_left, SUREFILL_ADAPTER_FILL_RULES);
+    need(draw.fill_rule > FillRule::northwards_west, static_cast<int>(SUREFILL_ADAPTER2_CLOSED_AND_OPEN));
     need(draw.grid.has_value(), SUREFILL_ADAPTER_GRIDS);
   }
   need(draws.size() > 1, SUREFILL_ADAPTER_DRAWS);
@@ -197,7 +199,9 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
   if (missing != 0) return kFeatureNames[std::countr_zero(missing)];
   if (const char* lacking = mode_without_word(target, draws); lacking != nullptr) return lacking;
   for (const Draw& draw : draws) {
-    if (const std::string_view field = field_without_word(draw.state()); !field.empty()) {
+    DrawState state = draw.state();
+    if (info.features & SUREFILL_ADAPTER2_CLOSED_AND_OPEN) state.fill_rule = FillRule::top_left;
+    if (const std::string_view field = field_without_word(state); !field.empty()) {
       return std::string(field) + " of a value that version 1 of the adapter has no word for";
     }
   }

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "certify/adapter.h"
+#include "certify/adapter2.h"
 #include "surefill/surefill.hpp"
 
 namespace surefill::adapters {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <span>
 #include <vector>
 
+#include "certify/rivals/stated_model.hpp"
 #include "certify/rivals/wire.hpp"
 
 namespace surefill::adapters {
@@ -141,30 +143,76 @@ void reply_text(int to, int status, const char* text) {
         text_words(text ? std::string(text).substr(0, 1000) : "no error text"));
 }
 
-class Host {
- public:
-  Host(const surefill_adapter_api& api, std::string arguments, int output)
-      : api_(api), arguments_(std::move(arguments)), output_(output) {}
+// What a plugin exports: one of the two.
+struct Plugin {
+  const surefill_adapter_api* first = nullptr;
+  const surefill_adapter2_api* second = nullptr;
+};
 
-  ~Host() {
-    if (instance_) api_.close(instance_);
+// A struct of version 2 that a plugin fills, with room for one that knows more than we do.
+template <typename Struct>
+class Room {
+ public:
+  explicit Room(const Struct& defaults) {
+    std::memcpy(words_.data(), &defaults, sizeof defaults);
+    words_[0] = kRoomWords * 4;
+  }
+  Struct* place() { return reinterpret_cast<Struct*>(words_.data()); }
+  // What was filled in, as far as it goes.
+  Words words() const {
+    const std::size_t size = std::clamp<std::size_t>(words_[0] / 4, 1, kRoomWords);
+    return {words_.begin(), words_.begin() + static_cast<std::ptrdiff_t>(size)};
   }
 
-  void open() {
-    surefill_adapter_info info{};
-    const int status = api_.open(arguments_.c_str(), &info, &instance_);
-    if (status != SUREFILL_ADAPTER_OK) {
-      reply_text(output_, status, api_.error_text(nullptr));
+ private:
+  static constexpr std::size_t kRoomWords = 1024;
+  alignas(8) std::array<std::uint32_t, kRoomWords> words_{};
+};
+
+class Host {
+ public:
+  Host(const Plugin& plugin, std::string arguments, int output)
+      : plugin_(plugin), arguments_(std::move(arguments)), output_(output) {}
+
+  ~Host() {
+    if (instance_) plugin_.second ? plugin_.second->close(instance_) : plugin_.first->close(instance_);
+  }
+
+  std::uint32_t version() const { return plugin_.second ? SUREFILL_ADAPTER2_VERSION : SUREFILL_ADAPTER_VERSION; }
+
+  // `asked`: the version that certify asks for. One of version 2 that is asked for 1 answers with its version alone.
+  void open(std::uint32_t asked) {
+    if (plugin_.second && asked != SUREFILL_ADAPTER2_VERSION) {
+      reply(output_, SUREFILL_ADAPTER_OK, {SUREFILL_ADAPTER2_VERSION});
       return;
     }
-    Words words(kInfoWords);
-    std::memcpy(words.data(), &info, sizeof info);
-    reply(output_, SUREFILL_ADAPTER_OK, words);
+    surefill_adapter_info info{};
+    Room<surefill_adapter2_info> info2{{}};
+    const int status = plugin_.second ? plugin_.second->open(arguments_.c_str(), info2.place(), &instance_)
+                                      : plugin_.first->open(arguments_.c_str(), &info, &instance_);
+    if (status != SUREFILL_ADAPTER_OK) {
+      reply_text(output_, status, error_text(nullptr));
+      return;
+    }
+    reply(output_, SUREFILL_ADAPTER_OK, plugin_.second ? info2.words() : struct_words(info));
+  }
+
+  // Version 2 alone.
+  void model() {
+    const surefill_adapter2_api& api = *plugin_.second;
+    Room<surefill_adapter2_model> model(default_model());
+    const bool stated = SUREFILL_ADAPTER2_HAS(surefill_adapter2_api, &api, model) && api.model;
+    const int status = stated ? api.model(instance_, model.place()) : SUREFILL_ADAPTER_UNSUPPORTED;
+    if (status != SUREFILL_ADAPTER_OK) {
+      reply_text(output_, status, stated ? error_text(instance_) : "no model is stated");
+      return;
+    }
+    reply(output_, SUREFILL_ADAPTER_OK, model.words());
   }
 
   void draw(GuardedPages& body, std::size_t words) {
     DecodedScene decoded;
-    if (!decode_scene({static_cast<const std::uint32_t*>(body.data()), words}, decoded)) {
+    if (!decode_scene({static_cast<const std::uint32_t*>(body.data()), words}, decoded, version())) {
       reply_text(output_, SUREFILL_ADAPTER_FAILED, "the host got a message that is no scene");
       return;
     }
@@ -194,9 +242,12 @@ class Host {
       for (float*& attribute : attributes) attribute = floats_of();
     }
     body.make_read_only();
+    const SceneOfVersion2 second(decoded.scene);
+    const surefill_adapter2_image image2 = image_of_version_2(image);
     current_scene = &body;
     current_outputs = &buffers;
-    const int status = api_.draw(instance_, &decoded.scene, &image);
+    const int status = plugin_.second ? plugin_.second->draw(instance_, &second.scene(), &image2)
+                                      : plugin_.first->draw(instance_, &decoded.scene, &image);
     current_outputs = nullptr;
     current_scene = nullptr;
     for (const auto& buffer : buffers) {
@@ -206,7 +257,7 @@ class Host {
       std::_Exit(kHostFailed);
     }
     if (status != SUREFILL_ADAPTER_OK) {
-      reply_text(output_, status, api_.error_text(instance_));
+      reply_text(output_, status, error_text(instance_));
       return;
     }
     Words answer;
@@ -220,11 +271,42 @@ class Host {
   bool is_open() const { return instance_ != nullptr; }
 
  private:
-  const surefill_adapter_api& api_;
+  const char* error_text(void* instance) const {
+    return plugin_.second ? plugin_.second->error_text(instance) : plugin_.first->error_text(instance);
+  }
+
+  Plugin plugin_;
   std::string arguments_;
   int output_;
   void* instance_ = nullptr;
 };
+
+// What the library exports; else what is wrong with it.
+std::string find_plugin(const std::string& library, Plugin& plugin) {
+  void* handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
+  if (!handle) return ::dlerror();
+  using Entry2 = const surefill_adapter2_api* (*)();
+  if (const auto entry = reinterpret_cast<Entry2>(::dlsym(handle, "surefill_adapter2_entry"))) {
+    const surefill_adapter2_api* api = entry();
+    if (!api) return library + ": its adapter of version 2 is null";
+    if (!SUREFILL_ADAPTER2_HAS(surefill_adapter2_api, api, error_text) || api->version != SUREFILL_ADAPTER2_VERSION) {
+      return library + ": its adapter has another version than 2";
+    }
+    if (!api->open || !api->draw || !api->close || !api->error_text)
+      return library + ": its adapter has a null function";
+    plugin.second = api;
+    return "";
+  }
+  using Entry = const surefill_adapter_api* (*)(std::uint32_t);
+  const auto entry = reinterpret_cast<Entry>(::dlsym(handle, "surefill_adapter_entry"));
+  if (!entry) return library + ": exports no surefill_adapter_entry";
+  const surefill_adapter_api* api = entry(SUREFILL_ADAPTER_VERSION);
+  if (!api) return library + ": knows no adapter of version 1";
+  if (api->version != SUREFILL_ADAPTER_VERSION) return library + ": its adapter has another version than 1";
+  if (!api->open || !api->draw || !api->close || !api->error_text) return library + ": its adapter has a null function";
+  plugin.first = api;
+  return "";
+}
 
 }  // namespace
 
@@ -233,28 +315,10 @@ int host_plugin(const std::string& library, const std::string& arguments) {
   const int output = ::dup(1);
   ::dup2(2, 1);
   watch_accesses();
-  std::string problem;
-  const surefill_adapter_api* api = nullptr;
-  void* handle = ::dlopen(library.c_str(), RTLD_NOW | RTLD_LOCAL);
-  if (!handle) {
-    problem = ::dlerror();
-  } else {
-    using Entry = const surefill_adapter_api* (*)(std::uint32_t);
-    const auto entry = reinterpret_cast<Entry>(::dlsym(handle, "surefill_adapter_entry"));
-    api = entry ? entry(SUREFILL_ADAPTER_VERSION) : nullptr;
-    if (!entry) problem = library + ": exports no surefill_adapter_entry";
-    if (entry && !api) problem = library + ": knows no adapter of version 1";
-    if (api && api->version != SUREFILL_ADAPTER_VERSION) {
-      problem = library + ": its adapter has another version than 1";
-      api = nullptr;
-    }
-    if (api && (!api->open || !api->draw || !api->close || !api->error_text)) {
-      problem = library + ": its adapter has a null function";
-      api = nullptr;
-    }
-  }
+  Plugin plugin;
+  const std::string problem = find_plugin(library, plugin);
   std::unique_ptr<Host> host;
-  if (api) host = std::make_unique<Host>(*api, arguments, output);
+  if (problem.empty()) host = std::make_unique<Host>(plugin, arguments, output);
   std::uint32_t header[kHeaderWords];
   while (read_all(0, header, sizeof header)) {
     GuardedPages body("scene", std::size_t{header[1]} * 4);
@@ -263,7 +327,9 @@ int host_plugin(const std::string& library, const std::string& arguments) {
     if (!host) {
       reply_text(output, SUREFILL_ADAPTER_FAILED, problem.c_str());
     } else if (header[0] == kOpen && !host->is_open()) {
-      host->open();
+      host->open(header[1] > 0 ? *static_cast<const std::uint32_t*>(body.data()) : 0);
+    } else if (header[0] == kModel && host->version() == SUREFILL_ADAPTER2_VERSION) {
+      host->model();
     } else if (header[0] == kDraw) {
       host->draw(body, header[1]);
     } else {

@@ -183,6 +183,7 @@ Inference infer_model(Rival& rival) {
       JudgedRival judged(rival);
       std::optional<judge::Model> hint;
       if (declared.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN) hint = model_of(declared);
+      if (rival.stated()) hint = rival.stated();
       result.judged = judge::infer(judged, oracle_expected(), hint);
       result.problems.insert(result.problems.end(), result.judged.problems.begin(), result.judged.problems.end());
       result.judged.model.distance = model_of(declared).distance;
@@ -200,7 +201,8 @@ Inference infer_model(Rival& rival) {
   return result;
 }
 
-judge::Terms terms_of(const surefill_adapter_info& info, const judge::Inference& found) {
+judge::Terms terms_of(const surefill_adapter_info& info, const std::optional<judge::Model>& stated,
+                      const judge::Inference& found) {
   judge::Terms terms;
   terms.model = found.model;
   terms.known = found.known;
@@ -214,6 +216,10 @@ judge::Terms terms_of(const surefill_adapter_info& info, const judge::Inference&
     terms.model.back = declared.back;
     terms.model.vertices = declared.vertices;
     terms.model.distance = declared.distance;
+    terms.known = true;
+  }
+  if (stated && (!found.known || judge::differences(*stated, found.model).empty())) {
+    terms.model = *stated;
     terms.known = true;
   }
   terms.draws_own_rule = (info.features & SUREFILL_ADAPTER_FILL_RULES) != 0;
@@ -244,6 +250,10 @@ std::string describe_model(const surefill_adapter_model& model) {
                       model.y == SUREFILL_ADAPTER_Y_UP ? "bottom" : "top", profile_name(model.profile));
   if (model.depth_range == SUREFILL_ADAPTER_MINUS_ONE_TO_ONE) text += ", clip depth -1 to 1";
   return text;
+}
+
+std::string declared_model(const Rival& rival) {
+  return rival.stated() ? judge::describe(*rival.stated()) : describe_model(rival.info().model);
 }
 
 bool same_coverage(const surefill_adapter_model& a, const surefill_adapter_model& b) {

@@ -47,7 +47,12 @@ std::optional<surefill_adapter_model> adapter_model(const judge::Model& model,
                                                     const surefill_adapter_model& conventions);
 
 // How a rival with this information is judged, its model being the one in there, or else `found`.
-judge::Terms terms_of(const surefill_adapter_info& info, const judge::Inference& found);
+// `stated`: the model that it states (version 2).
+judge::Terms terms_of(const surefill_adapter_info& info, const std::optional<judge::Model>& stated,
+                      const judge::Inference& found);
+
+// The model that it declares or states, in words.
+std::string declared_model(const Rival& rival);
 
 // "Grid of 8 bits, nearest_even, offset (0, 0), fill rule top_left, rows from the top, profile d3d11".
 std::string describe_model(const surefill_adapter_model& model);

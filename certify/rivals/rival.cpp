@@ -9,6 +9,8 @@
 #include <limits>
 
 #include "certify/rivals/frame.hpp"
+#include "certify/rivals/model.hpp"
+#include "certify/rivals/stated_model.hpp"
 #include "oracle/oracle.hpp"
 
 namespace surefill::adapters {
@@ -16,9 +18,10 @@ namespace surefill::adapters {
 namespace {
 
 constexpr std::chrono::milliseconds kLeastOpeningTime{20000};
-constexpr int kMostDeaths = 10;          // of one that draws other scenes
-constexpr int kMostFirstFailures = 3;    // of one that has drawn nothing yet
-constexpr std::size_t kMostAlone = 200;  // triangles that are drawn alone to find counts
+constexpr int kMostDeaths = 10;                 // of one that draws other scenes
+constexpr int kMostFirstFailures = 3;           // of one that has drawn nothing yet
+constexpr std::size_t kMostStructWords = 4096;  // of version 2
+constexpr std::size_t kMostAlone = 200;         // triangles that are drawn alone to find counts
 
 std::string cause_of(const Answer& answer) {
   std::string text = text_of(answer.words);
@@ -29,17 +32,18 @@ std::string cause_of(const Answer& answer) {
   return begin == std::string::npos ? "it gives no reason" : text.substr(begin, text.find_last_not_of(' ') + 1 - begin);
 }
 
+[[noreturn]] void refuse(const std::string& what) {
+  throw RivalUnopened("the rasterizer describes itself wrongly: " + what);
+}
+
 // Numbers that the header does not allow: a rival that says such things is not asked further.
-void check_info(const surefill_adapter_info& info) {
+void check_info(const surefill_adapter_info& info, std::uint32_t version) {
   const surefill_adapter_model& model = info.model;
-  const auto refuse = [](const std::string& what) {
-    throw RivalUnopened("the rasterizer describes itself wrongly: " + what);
-  };
   if ((info.outputs & ~kAllOutputs) != 0) refuse("an output that there is not");
   if ((info.outputs & (SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH)) == 0) {
     refuse("it has none of the outputs count, index and depth");
   }
-  if (info.features >> 19 != 0) refuse("a feature that there is not");
+  if (info.features >> (version == SUREFILL_ADAPTER_VERSION ? 19 : 20) != 0) refuse("a feature that there is not");
   if (info.form > SUREFILL_ADAPTER_FORM_CLIP) refuse("a form that there is not");
   if (model.kind > SUREFILL_ADAPTER_MODEL_GRID) refuse("a model that there is not");
   if (model.grid_bits > 12 || model.grid_offset_x > 15 || model.grid_offset_y > 15 || model.grid_rounding > 2) {
@@ -99,6 +103,7 @@ namespace {
 // A process that was asked to open, and what it answered.
 struct Opened {
   std::unique_ptr<Process> process;
+  std::uint32_t version = SUREFILL_ADAPTER_VERSION;
   Answer answer;
   std::string failure;  // set: it cannot be used
 };
@@ -115,7 +120,14 @@ Opened open_process(const RivalOptions& options) {
     return opened;
   }
   // Starting an interpreter or a device takes longer than a scene, and on a busy machine much longer.
-  opened.answer = opened.process->ask(kOpen, body, kInfoWords, std::max(options.time_limit * 4, kLeastOpeningTime));
+  const auto limit = std::max(options.time_limit * 4, kLeastOpeningTime);
+  opened.answer = opened.process->ask(kOpen, body, kInfoWords, limit);
+  // One of version 2 that is asked for version 1 answers with its version alone.
+  if (opened.answer.failure.empty() && opened.answer.status == SUREFILL_ADAPTER_OK &&
+      opened.answer.words == Words{SUREFILL_ADAPTER2_VERSION}) {
+    opened.version = body[0] = SUREFILL_ADAPTER2_VERSION;
+    opened.answer = opened.process->ask(kOpen, body, kMostStructWords, limit);
+  }
   const Answer& answer = opened.answer;
   if (!answer.failure.empty()) {
     opened.failure = "on being opened, " + answer.failure;
@@ -136,17 +148,61 @@ Rival::Rival(RivalOptions options) : options_(std::move(options)) {
   Opened opened = open_process(options_);
   if (!opened.failure.empty()) throw RivalUnopened(opened.failure);
   const Words& words = opened.answer.words;
-  if (words.size() != kInfoWords) {
+  version_ = opened.version;
+  if (version_ == SUREFILL_ADAPTER2_VERSION) {
+    take_second_version(*opened.process, words);
+  } else if (words.size() != kInfoWords) {
     throw RivalUnopened(
         fmt::format("the rasterizer describes itself in {} words instead of {}", words.size(), kInfoWords));
+  } else {
+    std::memcpy(&info_, words.data(), sizeof info_);
   }
-  std::memcpy(&info_, words.data(), sizeof info_);
-  check_info(info_);
+  check_info(info_, version_);
   if (info_.model.y == SUREFILL_ADAPTER_Y_UNKNOWN) info_.model.y = SUREFILL_ADAPTER_Y_DOWN;
   if (info_.model.depth_range == SUREFILL_ADAPTER_DEPTH_RANGE_UNKNOWN) {
     info_.model.depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE;
   }
   idle_.push_back(std::move(opened.process));
+}
+
+void Rival::take_second_version(Process& process, const Words& words) {
+  surefill_adapter2_info info{};
+  if (const std::string wrong = take_struct(words, &info, sizeof info); !wrong.empty()) refuse(wrong);
+  constexpr std::uint64_t kHalf = ~std::uint32_t{0};
+  if (info.outputs > kHalf) refuse("an output that there is not");
+  if (info.features > kHalf) refuse("a feature that there is not");
+  if (info.primitives >> (SUREFILL_ADAPTER2_POINTS + 1) != 0) refuse("a primitive that there is not");
+  primitives_ = info.primitives & ~(1u << SUREFILL_ADAPTER2_TRIANGLES);
+  std::memcpy(info_.name, info.name, sizeof info_.name);
+  std::memcpy(info_.version, info.version, sizeof info_.version);
+  info_.outputs = static_cast<std::uint32_t>(info.outputs);
+  info_.features = static_cast<std::uint32_t>(info.features);
+  info_.form = info.form;
+  info_.model.grid_bits = info.reported_bits;
+  info_.model.profile = info.profile;
+  info_.model.y = info.rows;
+  info_.model.depth_range = info.clip_depth;
+  info_.max_width = info.max_width;
+  info_.max_height = info.max_height;
+  info_.max_vertices = info.max_vertices;
+  info_.max_triangles = info.max_primitives;
+  info_.max_attributes = info.max_attributes;
+  info_.max_components = info.max_components;
+  const Answer answer = process.ask(kModel, {}, kMostStructWords, options_.time_limit);
+  if (!answer.failure.empty()) throw RivalUnopened("asked for its model, " + answer.failure);
+  if (answer.status == SUREFILL_ADAPTER_UNSUPPORTED) return;
+  if (answer.status != SUREFILL_ADAPTER_OK) throw RivalUnopened("asked for its model, it failed: " + cause_of(answer));
+  surefill_adapter2_model model = default_model();
+  if (const std::string wrong = take_struct(answer.words, &model, sizeof model); !wrong.empty()) refuse(wrong);
+  stated_.emplace();
+  if (const std::string wrong = take_model(model, *stated_); !wrong.empty()) refuse("its model has " + wrong);
+  // What section 6 has, and nothing else in it, is known by that name: then images may be held to it to the bit.
+  if (const auto expressed = adapter_model(*stated_, info_.model)) {
+    judge::Model same = model_of(*expressed);
+    same.distance = stated_->distance;
+    same.turned = stated_->turned;
+    if (same == *stated_) info_.model = *expressed;
+  }
 }
 
 bool Rival::given_up() const {
@@ -205,7 +261,8 @@ void Rival::draw_once(Target target, std::span<const Draw> draws) {
   for (const OutputBuffer& output : outputs) due += output.size;
 
   std::unique_ptr<Process> process = take();
-  const Answer answer = process->ask(kDraw, scene_words(frame.scene(), frame.image()), due, options_.time_limit);
+  const Answer answer =
+      process->ask(kDraw, scene_words(frame.scene(), frame.image(), version_), due, options_.time_limit);
   if (answer.timed_out) ++timeouts_;
   if (!answer.failure.empty()) fail(answer.failure, true);
   {

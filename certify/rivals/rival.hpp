@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <span>
 #include <stdexcept>
 #include <string>
@@ -51,7 +52,13 @@ class Rival {
   Rival(const Rival&) = delete;
   Rival& operator=(const Rival&) = delete;
 
+  // In the words of version 1, whichever version it speaks; features beyond those of version 1 have their bits.
   const surefill_adapter_info& info() const { return info_; }
+  std::uint32_t version() const { return version_; }
+  // The primitives beside triangles that it claims, as bits: version 2.
+  std::uint32_t primitives() const { return primitives_; }
+  // The model that it states: version 2.
+  const std::optional<judge::Model>& stated() const { return stated_; }
   void set_model(const surefill_adapter_model& model) { info_.model = model; }
 
   // Draws the frame, under the model, into those buffers of the target that the rival has; leaves the others as they
@@ -83,11 +90,15 @@ class Rival {
  private:
   std::unique_ptr<Process> take();
   [[noreturn]] void fail(const std::string& cause, bool died);
+  void take_second_version(Process& process, const Words& words);
   void draw_once(Target target, std::span<const Draw> draws);
   void add_up_counts(const Target& target, std::span<const Draw> draws);
 
   RivalOptions options_;
+  std::uint32_t version_ = SUREFILL_ADAPTER_VERSION;
   surefill_adapter_info info_{};
+  std::uint32_t primitives_ = 0;
+  std::optional<judge::Model> stated_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Process>> idle_;
   std::string last_failure_;

@@ -215,9 +215,11 @@ Key key_of(const corpus::SceneVertex& v) {
 std::vector<std::string> not_challenged(const RivalSubject& subject) {
   std::vector<std::string> names;
   const std::uint32_t left = subject.rival->info().features & ~*subject.challenged;
-  for (int bit = 0; bit < 19; ++bit) {
+  for (int bit = 0; bit < 20; ++bit) {
     if (left >> bit & 1u) names.push_back(adapters::feature_name(bit));
   }
+  if (subject.rival->primitives() >> SUREFILL_ADAPTER2_LINES & 1u) names.push_back("lines");
+  if (subject.rival->primitives() >> SUREFILL_ADAPTER2_POINTS & 1u) names.push_back("points");
   return names;
 }
 

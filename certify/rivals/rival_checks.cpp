@@ -279,7 +279,7 @@ class List {
       } else if (!found.judged.known) {
         return not_applicable();
       } else if (subject.declared) {
-        const judge::Model declared = adapters::model_of(subject.rival->info().model);
+        const judge::Model declared = subject.rival->stated().value_or(adapters::model_of(subject.rival->info().model));
         std::vector<std::string> sentences = judge::differences(declared, found.judged.model);
         if (found.model.y != subject.rival->info().model.y) {
           sentences.push_back(found.model.y == SUREFILL_ADAPTER_Y_UP ? "the first row is the bottom one"
@@ -287,8 +287,8 @@ class List {
         }
         for (const std::string& sentence : sentences) result.finding += (result.finding.empty() ? "" : "; ") + sentence;
         if (!sentences.empty()) {
-          result.finding = "it declares " + adapters::describe_model(subject.rival->info().model) +
-                           "; probing finds that " + result.finding;
+          result.finding =
+              "it declares " + adapters::declared_model(*subject.rival) + "; probing finds that " + result.finding;
         }
       }
       result.differences = result.finding.empty() ? 0 : 1;
@@ -370,7 +370,7 @@ bool draws_one_triangle(Rival& rival) {
 RivalSubject meet_rival(Rival& rival) {
   RivalSubject subject;
   subject.rival = &rival;
-  subject.declared = rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
+  subject.declared = rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN || rival.stated();
   if (!subject.declared) subject.reported_bits = rival.info().model.grid_bits;
   subject.inference.model = rival.info().model;
   subject.inference.judged.model = judge::least_known_model();
@@ -392,7 +392,7 @@ RivalSubject meet_rival(Rival& rival) {
     subject.inference.judged.open.push_back(std::string("a probe was not drawn: ") + lacking.what());
   }
   if (!subject.declared) rival.set_model(subject.inference.model);
-  subject.terms = adapters::terms_of(rival.info(), subject.inference.judged);
+  subject.terms = adapters::terms_of(rival.info(), rival.stated(), subject.inference.judged);
   subject.strict = exact_profile(rival) && rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
   return subject;
 }

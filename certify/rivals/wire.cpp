@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/rivals/wire.hpp"
 
+#include <algorithm>
+#include <cstddef>
 #include <cstring>
 
 #include "certify/rivals/draw_words.hpp"
@@ -50,6 +52,9 @@ class Reader {
   bool ok_ = true;
 };
 
+// The words of version 2's headers, which begin with their number.
+constexpr std::uint32_t kSceneHeaderWords = 11, kDrawHeaderWords = 28;
+
 // Sizes as S5 and attributes as the adapter has them: then no number of samples or values overflows.
 bool sizes_in_range(const surefill_adapter_scene& scene) {
   constexpr std::uint32_t kMostSamples = 16;
@@ -77,28 +82,94 @@ std::string text_of(std::span<const std::uint32_t> words) {
   return text;
 }
 
-Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_image& image) {
+std::string take_struct(std::span<const std::uint32_t> words, void* to, std::size_t size) {
+  if (words.empty()) return "an empty answer";
+  const std::size_t theirs = words[0];
+  if (theirs < 4 || theirs % 4 != 0 || theirs > words.size() * 4) {
+    return "a struct of " + std::to_string(theirs) + " bytes in " + std::to_string(words.size() * 4);
+  }
+  std::memcpy(to, words.data(), std::min(theirs, size));
+  const std::span<const std::uint32_t> beyond = words.subspan(std::min(words.size(), size / 4));
+  if (std::any_of(beyond.begin(), beyond.end(), [](std::uint32_t word) { return word != 0; })) {
+    return "it says more than this certify knows: its struct has " + std::to_string(theirs) + " bytes, and here are " +
+           std::to_string(size);
+  }
+  return "";
+}
+
+SceneOfVersion2::SceneOfVersion2(const surefill_adapter_scene& scene)
+    : draws_(scene.draw_count), attributes_(scene.draw_count), attribute_pointers_(scene.draw_count) {
+  for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
+    const surefill_adapter_draw& from = scene.draws[d];
+    surefill_adapter2_draw& to = draws_[d];
+    for (std::uint32_t k = 0; k < scene.attribute_count; ++k) {
+      const surefill_adapter_attribute& attribute = from.attributes[k];
+      attributes_[d].push_back(
+          {sizeof(surefill_adapter2_attribute), attribute.components, attribute.interpolation, 0, attribute.values});
+    }
+    for (const surefill_adapter2_attribute& attribute : attributes_[d]) attribute_pointers_[d].push_back(&attribute);
+    to.size = sizeof to;
+    to.primitive = SUREFILL_ADAPTER2_TRIANGLES;
+    to.vertex_count = from.vertex_count;
+    to.primitive_count = from.triangle_count;
+    to.pixel = from.pixel;
+    to.clip = from.clip;
+    to.indices = from.indices;
+    to.identifiers = from.identifiers;
+    to.attributes = attribute_pointers_[d].data();
+    to.clip_is_exact = from.clip_is_exact;
+    to.viewport_x = from.viewport_x;
+    to.viewport_y = from.viewport_y;
+    to.viewport_width = from.viewport_width;
+    to.viewport_height = from.viewport_height;
+    to.viewport_near = from.viewport_near;
+    to.viewport_far = from.viewport_far;
+    to.viewport_depth_range = from.viewport_depth_range;
+    // The state's words lie in both structs one after the other, and in the same order.
+    static_assert(offsetof(surefill_adapter_draw, grid_offset_y) - offsetof(surefill_adapter_draw, fill_rule) ==
+                  offsetof(surefill_adapter2_draw, grid_offset_y) - offsetof(surefill_adapter2_draw, fill_rule));
+    std::memcpy(&to.fill_rule, &from.fill_rule,
+                offsetof(surefill_adapter_draw, grid_offset_y) + 4 - offsetof(surefill_adapter_draw, fill_rule));
+  }
+  for (const surefill_adapter2_draw& draw : draws_) draw_pointers_.push_back(&draw);
+  scene_.size = sizeof scene_;
+  scene_.width = scene.width;
+  scene_.height = scene.height;
+  scene_.samples = scene.samples;
+  scene_.depth_test = scene.depth_test;
+  scene_.attribute_location = scene.attribute_location;
+  scene_.attribute_count = scene.attribute_count;
+  scene_.draw_count = scene.draw_count;
+  scene_.draws = draw_pointers_.data();
+  scene_.initial_depth = scene.initial_depth;
+}
+
+surefill_adapter2_image image_of_version_2(const surefill_adapter_image& image) {
+  return {
+      sizeof(surefill_adapter2_image), 0, image.count, image.index, image.depth, image.barycentrics, image.attributes};
+}
+
+Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_image& image, std::uint32_t version) {
   std::uint32_t outputs = 0;
   if (image.count) outputs |= SUREFILL_ADAPTER_COUNT;
   if (image.index) outputs |= SUREFILL_ADAPTER_INDEX;
   if (image.depth) outputs |= SUREFILL_ADAPTER_DEPTH;
   if (image.barycentrics) outputs |= SUREFILL_ADAPTER_BARYCENTRICS;
   if (image.attributes) outputs |= SUREFILL_ADAPTER_ATTRIBUTES;
-  Words words{outputs,
-              scene.width,
-              scene.height,
-              scene.samples,
-              scene.depth_test,
-              scene.attribute_location,
-              scene.attribute_count,
-              scene.draw_count,
-              scene.initial_depth ? 1u : 0u};
+  Words words;
+  const bool second = version == SUREFILL_ADAPTER2_VERSION;
+  if (second) words.push_back(kSceneHeaderWords);
+  words.push_back(outputs);
+  if (second) words.push_back(0);  // the upper half
+  words.insert(words.end(), {scene.width, scene.height, scene.samples, scene.depth_test, scene.attribute_location,
+                             scene.attribute_count, scene.draw_count, scene.initial_depth ? 1u : 0u});
   for (std::uint32_t k = 0; k < scene.attribute_count; ++k) {
     words.push_back(scene.draw_count > 0 ? scene.draws[0].attributes[k].components : 1);
   }
   if (scene.initial_depth) append(words, scene.initial_depth, total_samples(scene));
   for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
     const surefill_adapter_draw& draw = scene.draws[d];
+    if (second) words.insert(words.end(), {kDrawHeaderWords, SUREFILL_ADAPTER2_TRIANGLES});
     words.insert(words.end(), {draw.vertex_count, draw.triangle_count, draw.clip_is_exact, bits(draw.viewport_x),
                                bits(draw.viewport_y), bits(draw.viewport_width), bits(draw.viewport_height),
                                bits(draw.viewport_near), bits(draw.viewport_far), draw.viewport_depth_range});
@@ -116,10 +187,18 @@ Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_im
   return words;
 }
 
-bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result) {
+bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result, std::uint32_t version) {
   Reader reader(words);
   surefill_adapter_scene& scene = result.scene;
+  const bool second = version == SUREFILL_ADAPTER2_VERSION;
+  // The words of a header that are not known, since a later certify wrote it.
+  const auto pass_over = [&](std::uint32_t header, std::uint32_t known) {
+    if (second) reader.take(header - known);
+  };
+  const std::uint32_t scene_header = second ? reader.word() : 0;
+  if (second && scene_header < kSceneHeaderWords) return false;
   result.outputs = reader.word();
+  if (second) reader.word();
   scene.width = reader.word();
   scene.height = reader.word();
   scene.samples = reader.word();
@@ -128,6 +207,7 @@ bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result) {
   scene.attribute_count = reader.word();
   scene.draw_count = reader.word();
   const bool has_initial_depth = reader.word() != 0;
+  pass_over(scene_header, kSceneHeaderWords);
   // Each attribute and each draw takes a word at least, so that these numbers cannot ask for memory without end.
   if (!reader.ok() || scene.attribute_count > words.size() || scene.draw_count > words.size()) return false;
   if (!sizes_in_range(scene)) return false;
@@ -141,6 +221,8 @@ bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result) {
   result.attributes.resize(scene.draw_count);
   for (std::uint32_t d = 0; d < scene.draw_count && reader.ok(); ++d) {
     surefill_adapter_draw& draw = result.draws[d];
+    const std::uint32_t draw_header = second ? reader.word() : 0;
+    if (second && (draw_header < kDrawHeaderWords || reader.word() != SUREFILL_ADAPTER2_TRIANGLES)) return false;
     draw.vertex_count = reader.word();
     draw.triangle_count = reader.word();
     draw.clip_is_exact = reader.word();
@@ -151,6 +233,7 @@ bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result) {
     draw.viewport_depth_range = reader.word();
     for_each_state_word(
         draw, [&](auto& word) { word = static_cast<std::remove_reference_t<decltype(word)>>(reader.word()); });
+    pass_over(draw_header, kDrawHeaderWords);
     const std::uint64_t vertices = draw.vertex_count, triangles = draw.triangle_count;
     draw.pixel = reader.numbers(4 * vertices);
     draw.clip = reader.numbers(4 * vertices);

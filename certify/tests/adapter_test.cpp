@@ -65,6 +65,49 @@ TEST_F(Adapter, TheEngineBehindTheAdapterIsExact) {
   EXPECT_EQ(certify("--plugin " SUREFILL_ENGINE_PLUGIN), 0) << out;
 }
 
+// Version 2: structs that are shorter or longer than those that certify knows.
+TEST_F(Adapter, StructsOfVersion2MayBeOfAnotherSize) {
+  const std::string plugin = "--only alone,model --plugin " SUREFILL_SECOND_PLUGIN " --plugin-arguments ";
+  for (const char* right : {"''", "short-info", "long-info", "short-model", "long-model"}) {
+    EXPECT_EQ(certify(plugin + right), 0) << right << "\n" << out;
+    EXPECT_TRUE(says("it declares positions exact")) << right << "\n" << out;
+    EXPECT_TRUE(says("lines")) << right << "\n" << out;  // claimed, and not challenged
+  }
+  EXPECT_EQ(certify(plugin + "no-model"), 0) << out;
+  EXPECT_TRUE(says("2: probing finds exact") || says("0: probing finds exact")) << out;
+  EXPECT_EQ(certify(plugin + "wrong-model"), 1) << out;
+  EXPECT_TRUE(says("it declares positions on a grid of 4 bits")) << out;
+  const std::pair<const char*, const char*> faults[] = {
+      {"longer-info", "it says more than this certify knows: its struct has 264 bytes, and here are 200"},
+      {"longer-model", "it says more than this certify knows: its struct has 296 bytes, and here are 232"},
+      {"tiny-info", "a struct of 3 bytes"},
+      {"bad-output", "an output that there is not"},
+      {"bad-feature", "a feature that there is not"},
+      {"bad-primitive", "a primitive that there is not"},
+      {"bad-model", "its model has x: a rounding that there is not"},
+      {"model-fails", "asked for its model, it failed: out of tea"},
+      {"no-open", "the rasterizer cannot be opened: no device"},
+  };
+  for (const auto& [fault, cause] : faults) {
+    EXPECT_EQ(certify(plugin + fault), 2) << fault << "\n" << out;
+    EXPECT_TRUE(says("nothing to judge: ") && says(cause)) << fault << "\n" << out;
+  }
+}
+
+// All of it, over a pipe too; a rule that version 1 has no word for is asked for.
+TEST_F(Adapter, TheEngineBehindVersion2IsExact) {
+  EXPECT_EQ(certify("--plugin " SUREFILL_SECOND_PLUGIN), 0) << out;
+  EXPECT_TRUE(says("not challenged by any case that was judged: lines")) << out;
+  EXPECT_EQ(certify("--only 'alone,model*' --command '" SUREFILL_COMMAND " plugin-host " SUREFILL_SECOND_PLUGIN "'"), 0)
+      << out;
+}
+
+// A model that version 1 has no words for is stated, and held to.
+TEST_F(Adapter, AStatedModelIsHeldTo) {
+  EXPECT_EQ(certify("--plugin " SUREFILL_STATED_MODEL), 0) << out;
+  EXPECT_TRUE(says("declared: positions on a grid of 4 bits, floor; fill rule closed; samples at (0, 0)")) << out;
+}
+
 // A sample of the zoo through the public door; `surefill-zoo --plugin` does it for all.
 TEST_F(Adapter, TheZooIsTold) {
   const std::string plugin = "--plugin " SUREFILL_ZOO_PLUGIN " ";

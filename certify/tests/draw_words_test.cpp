@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <vector>
 
 #include "certify/rivals/wire.hpp"
@@ -45,13 +46,51 @@ TEST(DrawWords, AStateComesBack) {
     surefill_adapter_scene scene{};
     scene.width = scene.height = scene.samples = scene.draw_count = 1;
     scene.draws = &draw;
-    const Words words = scene_words(scene, {});
-    DecodedScene decoded;
-    ASSERT_TRUE(decode_scene(words, decoded));
-    DrawState sent;
-    set_state(decoded.draws[0], sent);
-    EXPECT_EQ(sent, state);
+    for (const std::uint32_t version : {SUREFILL_ADAPTER_VERSION, SUREFILL_ADAPTER2_VERSION}) {
+      const Words words = scene_words(scene, {}, version);
+      DecodedScene decoded;
+      ASSERT_TRUE(decode_scene(words, decoded, version));
+      DrawState sent;
+      set_state(decoded.draws[0], sent);
+      EXPECT_EQ(sent, state);
+      const SceneOfVersion2 second(decoded.scene);
+      EXPECT_EQ(std::memcmp(&second.scene().draws[0]->fill_rule, &draw.fill_rule, 16 * 4), 0);
+      DecodedScene other;
+      EXPECT_FALSE(decode_scene(words, other, 3 - version)) << "a message of the other version";
+    }
   }
+}
+
+// A certify that knows more words of a header is understood; fewer are no scene.
+TEST(DrawWords, HeadersOfVersion2MayGrow) {
+  surefill_adapter_draw draw{};
+  draw.scissor[3] = 7;
+  draw.grid_offset_y = 9;
+  surefill_adapter_scene scene{};
+  scene.width = scene.height = scene.samples = scene.draw_count = 1;
+  scene.draws = &draw;
+  const Words words = scene_words(scene, {}, SUREFILL_ADAPTER2_VERSION);
+  ASSERT_EQ(words.size(), 11u + 28u);
+  Words longer = words;
+  longer.insert(longer.begin() + 11 + 28, {5, 6});
+  longer[11] = 30;
+  longer.insert(longer.begin() + 11, 4);
+  longer[0] = 12;
+  DecodedScene decoded;
+  ASSERT_TRUE(decode_scene(longer, decoded, SUREFILL_ADAPTER2_VERSION));
+  EXPECT_EQ(decoded.draws[0].scissor[3], 7);
+  EXPECT_EQ(decoded.draws[0].grid_offset_y, 9u);
+  for (const std::size_t header : {std::size_t{0}, std::size_t{11}}) {
+    Words shorter = words;
+    --shorter[header];
+    shorter.erase(shorter.begin() + static_cast<std::ptrdiff_t>(header) + 2);
+    DecodedScene none;
+    EXPECT_FALSE(decode_scene(shorter, none, SUREFILL_ADAPTER2_VERSION)) << header;
+  }
+  Words lines = words;
+  lines[12] = SUREFILL_ADAPTER2_LINES;
+  DecodedScene none;
+  EXPECT_FALSE(decode_scene(lines, none, SUREFILL_ADAPTER2_VERSION));
 }
 
 TEST(DrawWords, WhatHasNoWordIsNamed) {

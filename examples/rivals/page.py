@@ -117,6 +117,23 @@ def matrix_line(row, model):
     return f"| {row.name} {row.version} | {row.package.replace('npm:', 'npm: ')} | {model} | {verdict} | {'yes' if row.unfair else ''} |"
 
 
+# Beside the project: from public repositories, fetched and built by hand.
+OUTSIDE = """## From public repositories, run by hand
+Nothing of these is in the project but the adapter, and no test runs them. Each was fetched at the commit that is named, and built as its
+adapter says ([examples/rivals/outside](../examples/rivals/outside)); then `surefill certify --level quick --plugin`.
+
+| rasterizer | commit | model found | verdict | by hand |
+| --- | --- | --- | --- | --- |
+| [tinyrenderer](https://github.com/ssloy/tinyrenderer), `rasterize` | 87bc715 | positions exact; samples at (0, 1) | certified: 20 of 56 checks | Samples are at the corner \
+of a pixel, half a pixel off (y is up there); both sides draw what lies on an edge; one facing is left out, and triangles of less than half a square pixel's \
+area: its source says `det() < 1`, "less than a pixel". |
+| [RenderHelp](https://github.com/skywind3000/RenderHelp) | 4e71027 | whole pixels; top-left | certified: 14 of 56 checks | Positions go to the nearest whole pixel, and samples \
+are at the corner: `(int)(x + 0.5)`. The words for x are not the simplest ("floor, offset 8/16, samples at -0.5" is "nearest-up, samples at 0"). |
+| [PortableGL](https://github.com/rswinkle/PortableGL) | 911292f | positions exact within 0.00013 px; samples at (0.5, 0.49); the viewport lacks 0.01 pixel | certified: 20 of 56 checks | The viewport is \
+0.01 pixel too small, as its source has it (`w - 0.01`), so pixels at the far border see another place than those at the near one. |
+
+"""
+
 HEAD = """# Rasterizers that others made
 
 What `surefill certify` says of rasterizers that Debian 12 and npm deliver, and what a look by hand says of that. Written by `./dev rivals
@@ -166,7 +183,7 @@ def main(arguments):
         for complaint in complaints:
             print(f"         {complaint}")
     if write:
-        PAGE.write_text(HEAD + "\n".join(matrix) + "\n\n" + "\n".join(sections))
+        PAGE.write_text(HEAD + "\n".join(matrix) + "\n\n" + OUTSIDE + "\n".join(sections))
     if ran == 0:
         return 77
     return 1 if wrong else 0

@@ -125,10 +125,21 @@ say "doxygen has no warnings; every type, function and macro is documented"
 
 # ---------------------------------------------------------------- Python
 python=/usr/bin/python3
-if "$python" -c 'import numpy' 2>/dev/null && dpkg-query -W pybind11-dev >/dev/null 2>&1; then
-  build python python -DCMAKE_PREFIX_PATH="$prefix" -DPython3_EXECUTABLE="$python"
-  ctests python
-  say "Python: tests and example pass"
+"$python" -c 'import numpy, pip' 2>/dev/null || fail "python3-numpy or python3-pip is missing"
+build python python -DCMAKE_PREFIX_PATH="$prefix" -DPython3_EXECUTABLE="$python"
+ctests python
+say "Python: tests, recipes and example pass"
+# The wheel, as pip makes and installs it without network; where it lies there is nothing else.
+rm -rf "$work/wheels" "$work/site"
+run wheel "$python" -m pip wheel . --no-deps --no-index --wheel-dir "$work/wheels" --config-settings package="$work/python/surefill"
+wheel=$(ls "$work"/wheels/surefill-*.whl)
+[[ $wheel == *-py3-none-manylinux_* ]] || fail "the wheel is tagged for this machine alone: $(basename "$wheel")"
+run wheel-install "$python" -m pip install --no-deps --no-index --no-compile --target "$work/site" "$wheel"
+(cd "$work" && PYTHONPATH=$work/site PYTHONDONTWRITEBYTECODE=1 "$python" "$source_dir/examples/picture.py") | cmp - examples/expected/picture.txt
+say "$(basename "$wheel"), $(stat -c %s "$wheel") bytes, installs and draws"
+if command -v mypy >/dev/null; then
+  (cd python && run mypy mypy --strict --cache-dir "$work/mypy" --config-file ../pyproject.toml -p surefill)
+  say "mypy --strict has nothing to say"
 else
-  fail "python3-numpy or pybind11-dev is missing"
+  fail "mypy is missing"
 fi

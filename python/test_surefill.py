@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
+import concurrent.futures
 import ctypes
+import pathlib
+import pickle
 import platform
+import re
 import struct
 import subprocess
 import sys
@@ -121,6 +125,231 @@ class Pictures(unittest.TestCase):
         self.assertGreater(steps, 5)
 
 
+class Arrays(unittest.TestCase):
+    """What is converted, and what is the caller's."""
+
+    def test_conversions_that_change_nothing(self):
+        expected = surefill.rasterize(POSITIONS, TRIANGLES, SIZE).depth
+        for positions in (POSITIONS.astype(np.float64), POSITIONS.tolist(), POSITIONS.astype(">f4"), POSITIONS.astype(np.float16),
+                          np.asfortranarray(POSITIONS), np.repeat(POSITIONS, 2, axis=0)[::2]):
+            for triangles in (TRIANGLES.astype(np.int64), TRIANGLES.astype(np.uint8), TRIANGLES.tolist()):
+                np.testing.assert_array_equal(surefill.rasterize(positions, triangles, SIZE).depth, expected)
+        nan = POSITIONS.astype(np.float64)
+        nan[0, 0] = np.nan  # is NaN in float32, too
+        self.assertEqual(surefill.rasterize(nan, TRIANGLES, SIZE).statistics.dropped, 2)
+
+    def test_conversions_on_request(self):
+        positions = POSITIONS.astype(np.float64) + 0.1
+        raster = surefill.rasterize(positions, TRIANGLES, SIZE, convert=True)
+        np.testing.assert_array_equal(raster.depth, surefill.rasterize(positions.astype(np.float32), TRIANGLES, SIZE).depth)
+        self.assertRaisesRegex(TypeError, r"astype\(numpy.float32\), or give convert=True", surefill.rasterize, positions,
+                               TRIANGLES, SIZE)
+        surefill.to_pixel(positions, SIZE, convert=True)
+        surefill.interpolate(positions, raster, convert=True)
+
+    def test_a_buffer_used_again_changes_nothing(self):
+        positions, triangles, initial = POSITIONS.copy(), TRIANGLES.copy(), np.full(SIZE, 0.5, np.float32)
+        raster = surefill.rasterize(positions, triangles, SIZE, initial_depth=initial)
+        kept = surefill.rasterize(positions, triangles, SIZE, copy=False)
+        values = np.ascontiguousarray(POSITIONS[:, :2])
+        before = surefill.interpolate(values, raster), surefill.interpolate(values, kept)
+        positions[:], triangles[:], initial[:] = 0, 0, 0
+        np.testing.assert_array_equal(surefill.interpolate(values, raster), before[0])
+        self.assertFalse(np.array_equal(surefill.interpolate(values, kept), before[1]))
+
+    def test_out_is_written_over(self):
+        first = surefill.rasterize(POSITIONS, TRIANGLES, SIZE)
+        second = surefill.rasterize(POSITIONS, TRIANGLES[:1], SIZE, out=first)
+        self.assertIs(first.index, second.index)
+        self.assertEqual(int((second.index == 1).sum()), 0)
+        self.assertIsNot(surefill.rasterize(POSITIONS, TRIANGLES, (4, 4), out=first).index, first.index)
+
+    def test_only_what_is_asked_for(self):
+        raster = surefill.rasterize(POSITIONS, TRIANGLES, SIZE, outputs="depth")
+        self.assertRaisesRegex(AttributeError, "index: it was not asked for", lambda: raster.index)
+        self.assertRaisesRegex(AttributeError, "attributes: none were given", lambda: raster.attributes)
+        self.assertEqual(repr(raster), "<surefill.Raster 6 x 8: depth>")
+        self.assertEqual(repr(surefill.rasterize(POSITIONS, TRIANGLES, SIZE, samples=4, layers=2, attributes=POSITIONS)),
+                         "<surefill.Raster 6 x 8, 2 layers, 4 samples: index, depth, barycentrics, attributes>")
+        copy = pickle.loads(pickle.dumps(surefill.rasterize(POSITIONS, TRIANGLES, SIZE)))
+        np.testing.assert_array_equal(surefill.interpolate(POSITIONS, copy)[..., 0], np.arange(8)[None] + np.float32(0.5) +
+                                      np.zeros(SIZE, np.float32))
+
+
+class Modes(unittest.TestCase):
+    """What C has, reached from Python."""
+
+    MESH = np.random.default_rng(24)  # seed 24; 60 triangles
+    V = (MESH.uniform(-2, 10, (60, 4)) * [1, 1, 0.1, 0] + [0, 0, 0.5, 1]).astype(np.float32)
+    T = MESH.integers(0, 60, (60, 3))
+
+    def test_columns_of_one_pass(self):
+        for columns in (1, 4, 5, 8, 63, 70):
+            values = np.random.default_rng(columns).uniform(-1, 1, (60, columns)).astype(np.float32)
+            together = surefill.rasterize(self.V, self.T, SIZE, attributes=values)
+            alone = np.stack([surefill.interpolate(values[:, k], together) for k in range(columns)], axis=-1)
+            np.testing.assert_array_equal(together.attributes, alone)
+            np.testing.assert_array_equal(surefill.interpolate(values, together), alone)
+        words = ["flat", "perspective", "perspective", "noperspective", "flat"]
+        mixed = surefill.interpolate(values[:, :5], together, interpolation=words)
+        for k, word in enumerate(words):
+            np.testing.assert_array_equal(mixed[..., k], surefill.interpolate(values[:, k], together, interpolation=word))
+
+    def test_batches(self):
+        shifted = np.stack([self.V, self.V + np.float32([2, 1, 0, 0]), self.V[::-1]])
+        values = np.random.default_rng(1).uniform(-1, 1, (3, 60, 6)).astype(np.float32)
+        for samples in (1, 2):
+            batch = surefill.rasterize(shifted, self.T, SIZE, samples=samples, attributes=values, outputs=["index", "covered"])
+            self.assertEqual(batch.index.shape, (3, *SIZE) if samples == 1 else (3, *SIZE, 2))
+            self.assertIn("3 images", repr(batch))
+            again = surefill.interpolate(values[0], batch)
+            for k in range(3):
+                one = surefill.rasterize(shifted[k], self.T, SIZE, samples=samples, attributes=values[k],
+                                         outputs=["index", "covered"])
+                np.testing.assert_array_equal(batch.index[k], one.index)
+                np.testing.assert_array_equal(batch.attributes[k], one.attributes)
+                np.testing.assert_array_equal(batch.covered[k], one.covered)
+                np.testing.assert_array_equal(again[k], surefill.interpolate(values[0], one))
+        parts = surefill.rasterize(self.V, self.T, SIZE, ranges=[[0, 20], [20, 40], [5, 0]], outputs=["index", "visible"])
+        np.testing.assert_array_equal(parts.index[0], surefill.rasterize(self.V, self.T[:20], SIZE).index)
+        second = surefill.rasterize(self.V, self.T[20:], SIZE)
+        np.testing.assert_array_equal(parts.index[1], np.where(second.mask, second.index + 20, surefill.NO_TRIANGLE))
+        self.assertFalse(parts.mask[2].any())
+        self.assertEqual(parts.visible.sum(), parts.mask.sum())
+        self.assertEqual(surefill.to_pixel(shifted, SIZE).shape, shifted.shape)
+
+    def test_draws_are_numbered_on(self):
+        draws = [surefill.Draw(POSITIONS, TRIANGLES[:1], scissor=(0, 0, 4, 6)), surefill.Draw(POSITIONS, TRIANGLES[1:]),
+                 surefill.Draw(POSITIONS - np.float32([0, 0, 1, 0]), TRIANGLES, depth_write=False, scissor=(7, 0, 8, 1))]
+        raster = surefill.render(draws, SIZE, outputs=["index", "visible", "depth"])
+        x, y = np.meshgrid(np.arange(8), np.arange(6))
+        expected = np.where(x < y, 1, np.where(x < 4, 0, surefill.NO_TRIANGLE))
+        expected[0, 7] = 2
+        np.testing.assert_array_equal(raster.index, expected)
+        self.assertEqual([int(v.sum()) for v in raster.visible], [10, 21 - 6, 1])
+        values = [POSITIONS[:, :1], POSITIONS[:, :1], np.full((4, 1), 9, np.float32)]
+        seen = surefill.interpolate(values, raster)[..., 0]
+        np.testing.assert_array_equal(seen[:, :4], np.broadcast_to(np.arange(4) + np.float32(0.5), (6, 4)))
+        self.assertEqual(seen[0, 7], 9)
+        self.assertRaisesRegex(ValueError, "^attributes: a list of 3", surefill.interpolate, POSITIONS, raster)
+
+    def test_layers_origin_and_sample_places(self):
+        stack = np.concatenate([TRIANGLES, TRIANGLES[:1]])
+        layers = surefill.rasterize(POSITIONS, stack, SIZE, layers=3, outputs=["index", "depth", "count"])
+        self.assertEqual((layers.index.shape, layers.count.shape), ((3, *SIZE), SIZE))
+        np.testing.assert_array_equal(layers.mask.sum(axis=0), layers.count)
+        np.testing.assert_array_equal(layers.index[:, 0, 7], [0, 2, surefill.NO_TRIANGLE])
+        whole = surefill.rasterize(self.V, self.T, (6, 16))
+        tile = surefill.rasterize(self.V, self.T, (3, 5), origin=(7, 2))
+        np.testing.assert_array_equal(tile.barycentrics, whole.barycentrics[2:5, 7:12])
+        moved = surefill.rasterize(POSITIONS, TRIANGLES, SIZE, sample_locations=[(0, 0)]).depth
+        np.testing.assert_array_equal(moved[:, 7], (0.25 + np.arange(6) / 16).astype(np.float32))
+        self.assertEqual(surefill.sample_locations(1), ((8, 8),))
+        standard = surefill.rasterize(self.V, self.T, SIZE, samples=4)
+        np.testing.assert_array_equal(standard.index, surefill.rasterize(
+            self.V, self.T, SIZE, samples=4, sample_locations=surefill.sample_locations(4)).index)
+
+    def test_numbers_and_states(self):
+        raster = surefill.rasterize(POSITIONS, TRIANGLES[:, ::-1], SIZE, outputs=["winding", "covered", "visible"])
+        self.assertTrue((raster.winding == -1).all())
+        np.testing.assert_array_equal(raster.covered, [33, 15])
+        self.assertEqual(raster.covered.dtype, np.uint64)
+        far = surefill.rasterize(POSITIONS, np.concatenate([TRIANGLES, TRIANGLES]), SIZE, depth_test="less_equal").index
+        self.assertTrue((far >= 2).all())
+        biased = surefill.rasterize(POSITIONS, TRIANGLES, SIZE, depth_bias=(0.5, 0)).depth
+        np.testing.assert_array_equal(biased, surefill.rasterize(POSITIONS, TRIANGLES, SIZE).depth + np.float32(0.5))
+        corner = np.float32([[0.5, 0.5, 0, 1], [3, 0.5, 0, 1], [0.5, 3, 0, 1]])
+        for grid, pixels in ((None, 6), (0, 3), (surefill.Grid(0, "nearest_up"), 1)):
+            self.assertEqual(int(surefill.coverage(corner, [[0, 1, 2]], SIZE, grid=grid).sum()), pixels, grid)
+        line = np.float32([[1.5, 1.5, 0, 1], [5.5, 1.5, 0, 1], [3.5, 1.5, 0, 1]])
+        for how, pixels in (("over", 0), ("touched", 5), ("overlap", 0)):
+            self.assertEqual(int(surefill.coverage(line, [[0, 1, 2]], SIZE, conservative=how).sum()), pixels, how)
+        owner = surefill.rasterize(POSITIONS, TRIANGLES[:1], SIZE, conservative="over")
+        np.testing.assert_array_equal(owner.mask, surefill.coverage(POSITIONS, TRIANGLES[:1], SIZE, conservative="over") == 1)
+        self.assertEqual(surefill.rasterize(POSITIONS, TRIANGLES, SIZE, cull="front").statistics.culled, 2)
+        reference = surefill.render([surefill.Draw(self.V, self.T)], SIZE, path="reference")
+        self.assertEqual(reference.statistics.path, "reference")
+        np.testing.assert_array_equal(reference.barycentrics, surefill.rasterize(self.V, self.T, SIZE).barycentrics)
+
+    def test_threads_of_a_pool_and_a_context(self):
+        context, expected = surefill.Context(), surefill.rasterize(self.V * np.float32([40, 40, 1, 1]), self.T, (300, 400))
+        with concurrent.futures.ThreadPoolExecutor(3) as pool:
+            for _ in range(2):
+                drawn = surefill.rasterize(self.V * np.float32([40, 40, 1, 1]), self.T, (300, 400), threads=4, executor=pool,
+                                           context=context)
+                np.testing.assert_array_equal(drawn.depth, expected.depth)
+        # A pool that takes no more: the work is done all the same, and the pool's complaint is raised.
+        self.assertRaisesRegex(RuntimeError, "shutdown", surefill.rasterize, self.V, self.T, (300, 400), threads=4, executor=pool)
+
+    def test_streams(self):
+        count = np.zeros((96, 128), np.uint32)
+
+        def visit(blocks):
+            for block in blocks:
+                bits = (int(block["mask"]) >> np.arange(64, dtype=object) & 1).astype(np.uint32).reshape(8, 8)
+                part = count[block["y"]:block["y"] + 8, block["x"]:block["x"] + 8]
+                part += bits[:part.shape[0], :part.shape[1]]
+
+        positions = self.V * np.float32([12, 12, 1, 1])
+        told = surefill.visit_coverage(surefill.Draw(positions, self.T), count.shape, visit, threads=2)
+        np.testing.assert_array_equal(count, surefill.coverage(positions, self.T, count.shape))
+        self.assertEqual(told.triangles, 60)
+        self.assertRaises(ZeroDivisionError, surefill.visit_coverage, surefill.Draw(positions, self.T), count.shape,
+                          lambda blocks: 1 / 0)
+        self.assertRaisesRegex(TypeError, "^draws: ", surefill.visit_coverage, positions, count.shape, visit)
+
+    def test_occlusion(self):
+        buffer = surefill.OcclusionBuffer(SIZE)
+        box = np.array([[x, y, z, 1] for x in (2, 4) for y in (2, 4) for z in (2, 3)], np.float32)
+        boxes = np.stack([box, box + np.float32([100, 0, 0, 0]), box - np.float32([0, 0, 5, 0])])
+        self.assertEqual(buffer.query_boxes(boxes).tolist(), [2, 0, 2])
+        buffer.draw([surefill.Draw(POSITIONS, TRIANGLES)])
+        np.testing.assert_array_equal(buffer.depth, surefill.rasterize(POSITIONS, TRIANGLES, SIZE).depth)
+        self.assertEqual(buffer.query_boxes(boxes).tolist(), [buffer.HIDDEN, buffer.OUTSIDE, buffer.VISIBLE])
+        self.assertEqual(buffer.query_rectangles([[2, 2, 4, 4, 0.875], [2, 2, 4, 4, 0.125]]).tolist(), [1, 2])
+        buffer.clear()
+        self.assertEqual(buffer.query_boxes(boxes[:1]).tolist(), [2])
+        self.assertRaisesRegex(ValueError, "^boxes: ", buffer.query_boxes, box)
+
+    def test_cameras(self):
+        points, K = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.5]]), np.array([[100, 0, 31.5], [0, 100, 23.5], [0, 0, 1]])
+        positions = surefill.opencv(points, K, np.eye(3), [0, 0, 4])
+        np.testing.assert_array_equal(positions[0], [32 * 4, 24 * 4, -1, 4])
+        np.testing.assert_array_equal(positions[2], [32 * 4.5, 100 + 24 * 4.5, -1, 4.5])
+        self.assertEqual(surefill.opencv(points, K, np.stack([np.eye(3)] * 2), np.zeros((2, 3, 1))).shape, (2, 3, 4))
+        clip = np.c_[points, np.ones(3)] @ np.diag([2, 2, 1, 1]).T
+        np.testing.assert_array_equal(surefill.opengl(points, np.diag([2, 2, 1, 1]), SIZE),
+                                      surefill.to_pixel(clip, SIZE, clip_depth="minus_one_to_one"))
+        np.testing.assert_array_equal(surefill.orthographic(points, (-1, -2, 3, 2), (8, 16))[1], [8, 4, 0, 1])
+        np.testing.assert_array_equal(surefill.top_down(points, (0, 0, 2, 2), (4, 8))[2], [0, 2, -0.5, 1])
+        self.assertRaisesRegex(ValueError, "^box: ", surefill.orthographic, points, (0, 0, 0, 1), SIZE)
+        self.assertRaisesRegex(ValueError, "^K: ", surefill.opencv, points, np.eye(4), np.eye(3), [0, 0, 4])
+        self.assertRaisesRegex(ValueError, "^points: ", surefill.opencv, points[:, :2], K, np.eye(3), [0, 0, 4])
+
+    def test_numbers_are_rounded_without_the_float_state(self):
+        from surefill._library import float32_bits
+        rng = np.random.default_rng(3)
+        doubles = np.concatenate([rng.integers(0, 2**64, 2000, np.uint64).view(np.float64), [0.0, -0.0, np.inf, 1e39, 2**-150, 2**-149],
+                                  (rng.uniform(-1, 1, 2000) * 2.0 ** rng.integers(-155, 130, 2000))])
+        doubles = doubles[~np.isnan(doubles)]
+        with np.errstate(all="ignore"):
+            np.testing.assert_array_equal([float32_bits(float(d)) for d in doubles], doubles.astype(np.float32).view(np.uint32))
+
+
+class Recipes(unittest.TestCase):
+    """Each block of docs/python.md that is marked python, in order."""
+
+    def test_each_block(self):
+        here = pathlib.Path(__file__).resolve()
+        pages = [page for page in (here.with_name("python.md"), here.parent.parent / "docs/python.md") if page.exists()]
+        text = pages[0].read_text()
+        blocks, names = list(re.finditer(r"^```python\n(.*?)^```", text, re.M | re.S)), {}
+        self.assertGreater(len(blocks), 12)
+        for block in blocks:
+            lines_before = text.count("\n", 0, block.start(1))
+            exec(compile("\n" * lines_before + block[1], str(pages[0]), "exec"), names)
+
+
 class WrongCalls(unittest.TestCase):
     """Each raises an exception that names the argument, and writes to none."""
 
@@ -138,14 +367,16 @@ class WrongCalls(unittest.TestCase):
             self.wrong(error, name, surefill.rasterize, positions, triangles, size, **options)
 
         call(TypeError, "positions", positions=None)
-        call(TypeError, "positions", positions=POSITIONS.tolist())
-        call(TypeError, "positions", positions=POSITIONS.astype(np.float64))
+        call(TypeError, "positions", positions="triangle")
+        call(TypeError, "positions", positions=POSITIONS.astype(np.float64) + 0.1)
+        call(TypeError, "positions", positions=POSITIONS.astype(np.complex64))
+        call(TypeError, "positions", positions=np.ma.array(POSITIONS, mask=POSITIONS > 7))
         call(ValueError, "positions", positions=POSITIONS[:, :3].copy())
-        call(ValueError, "positions", positions=np.asfortranarray(POSITIONS))
-        call(ValueError, "positions", positions=POSITIONS[::2])
-        call(TypeError, "positions", positions=POSITIONS.astype(">f4"))
-        call(TypeError, "triangles", triangles=TRIANGLES.astype(np.int64))
+        call(ValueError, "positions", positions=POSITIONS.ravel())
         call(TypeError, "triangles", triangles=TRIANGLES.astype(np.float32))
+        call(TypeError, "triangles", triangles=TRIANGLES.astype(bool))
+        call(IndexError, "triangles", triangles=TRIANGLES.astype(np.int64) - 1)
+        call(IndexError, "triangles", triangles=TRIANGLES.astype(np.int64) + 2**32)
         call(ValueError, "triangles", triangles=TRIANGLES.ravel())
         call(IndexError, "triangles", triangles=TRIANGLES + np.int32(2))
         call(IndexError, "triangles", triangles=TRIANGLES - np.int32(1))
@@ -157,7 +388,7 @@ class WrongCalls(unittest.TestCase):
         call(ValueError, "samples", samples=3)
         call(TypeError, "samples", samples="4")
         call(ValueError, "identifiers", identifiers=np.arange(3, dtype=np.uint32))
-        call(TypeError, "identifiers", identifiers=[1, 2])
+        call(TypeError, "identifiers", identifiers=[1.5, 2])
         call(ValueError, "identifiers", identifiers=np.array([3, -1], np.int32))
         call(ValueError, "identifiers", identifiers=np.array([surefill.NO_TRIANGLE, 3], np.uint32))
         call(ValueError, "initial_depth", initial_depth=np.zeros((8, 6), np.float32))
@@ -167,22 +398,41 @@ class WrongCalls(unittest.TestCase):
         call(ValueError, "depth_test", depth_test="equal")
         call(ValueError, "depth_mode", depth_mode=1)
         call(ValueError, "threads", threads=0)
+        call(TypeError, "size", size=(6, 8, 3))
+        call(ValueError, "outputs", outputs=["colour"])
+        call(ValueError, "layers", layers=17)
+        call(TypeError, "origin", origin=5)
+        call(ValueError, "origin", origin=(0, 1 << 23))
+        call(ValueError, "sample_locations", sample_locations=[(1, 2), (3, 4)])
+        call(ValueError, "sample_locations", sample_locations=[(1, 16)])
+        call(TypeError, "scissor", scissor=(0, 0, 4))
+        call(ValueError, "grid", grid=13)
+        self.wrong(ValueError, "culling_box", surefill.Draw, POSITIONS, TRIANGLES, culling_box=np.zeros((7, 4), np.float32))
+        call(TypeError, "depth_bias", depth_bias=0.5)
+        call(ValueError, "depth_bias", depth_bias=(0.5, float("nan")))
+        call(ValueError, "ranges", ranges=[(0, 2), (1, 2)])
+        call(TypeError, "context", context=1)
+        call(TypeError, "executor", executor=1)
+        call(TypeError, "out", out=1)
+        call(ValueError, "interpolation", attributes=POSITIONS, interpolation=["flat"])
+        call(ValueError, "conservative", conservative="inner", samples=1, outputs="depth")
+        call(ValueError, "layers", layers=2, conservative="over")
+        call(ValueError, "initial_depth", initial_depth=np.zeros((8, 6), np.float32))
 
     def test_interpolate(self):
         raster = surefill.rasterize(POSITIONS, TRIANGLES, SIZE)
         self.wrong(TypeError, "raster", surefill.interpolate, POSITIONS, raster.index)
         self.wrong(TypeError, "attributes", surefill.interpolate, None, raster)
         self.wrong(ValueError, "attributes", surefill.interpolate, POSITIONS[:3], raster)
-        self.wrong(ValueError, "attributes", surefill.interpolate, np.zeros((4, 5), np.float32), raster)
         self.wrong(ValueError, "attributes", surefill.interpolate, np.zeros((4, 0), np.float32), raster)
-        self.wrong(ValueError, "attributes", surefill.interpolate, np.zeros(4, np.float32), raster)
+        self.wrong(ValueError, "attributes", surefill.interpolate, np.zeros((2, 4, 3), np.float32), raster)
         self.wrong(ValueError, "interpolation", surefill.interpolate, POSITIONS, raster, interpolation="cubic")
 
     def test_coverage_and_to_pixel(self):
         self.wrong(ValueError, "conservative", surefill.coverage, POSITIONS, TRIANGLES, SIZE, conservative="yes")
         self.wrong(ValueError, "conservative", surefill.coverage, POSITIONS, TRIANGLES, SIZE, conservative="over",
                    samples=4)
-        self.wrong(TypeError, "clip", surefill.to_pixel, POSITIONS.astype(np.float16), SIZE)
+        self.wrong(TypeError, "clip", surefill.to_pixel, POSITIONS.astype(np.float64) + 0.1, SIZE)
         self.wrong(TypeError, "depth_range", surefill.to_pixel, POSITIONS, SIZE, depth_range=1)
         self.wrong(ValueError, "depth_range", surefill.to_pixel, POSITIONS, SIZE, depth_range=(0, float("nan")))
         self.wrong(ValueError, "clip_y", surefill.to_pixel, POSITIONS, SIZE, clip_y="left")

@@ -24,12 +24,12 @@ import os
 import struct
 import sys
 import traceback
-from typing import Callable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
-__all__ = ["Attribute", "Draw", "Scene", "Unsupported", "each_triangle", "serve"]
+__all__ = ["Scene", "SceneAttribute", "SceneDraw", "Unsupported", "each_triangle", "serve"]
 
 EMPTY = 0xFFFFFFFF
 
@@ -51,7 +51,7 @@ class Unsupported(Exception):
 
 
 @dataclasses.dataclass(frozen=True)
-class Attribute:
+class SceneAttribute:
     values: NDArray[np.float32]
     """(V, C), a row for each vertex."""
     interpolation: str
@@ -59,7 +59,7 @@ class Attribute:
 
 
 @dataclasses.dataclass(frozen=True)
-class Draw:
+class SceneDraw:
     """Triangles in one state. What is not among the features that were claimed has its default."""
 
     positions: NDArray[np.float32]
@@ -74,7 +74,7 @@ class Draw:
     """(T, 3), rows of positions."""
     identifiers: NDArray[np.uint32]
     """(T,), what the output "index" shows."""
-    attributes: Sequence[Attribute]
+    attributes: Sequence[SceneAttribute]
     fill_rule: str
     front_face: str
     cull: str
@@ -98,7 +98,7 @@ class Scene:
     """"centre" or "centroid"."""
     outputs: Tuple[str, ...]
     """Those that are asked for now, out of those that were claimed."""
-    draws: Sequence[Draw]
+    draws: Sequence[SceneDraw]
     initial_depth: Optional[NDArray[np.float32]]
     components: Tuple[int, ...]
     """Of each attribute."""
@@ -115,7 +115,7 @@ class _Words:
     def __init__(self, body: bytes):
         self._body, self._at = body, 0
 
-    def take(self, shape: Tuple[int, ...], dtype: str = "<u4") -> np.ndarray:
+    def take(self, shape: Tuple[int, ...], dtype: str = "<u4") -> NDArray[Any]:
         number = int(np.prod(shape))
         array = np.frombuffer(self._body, dtype, number, 4 * self._at).reshape(shape)
         self._at += number
@@ -136,24 +136,24 @@ def _scene(body: bytes) -> Scene:
                  [_draw(words, components) for _ in range(draws)], initial, components)
 
 
-def _draw(words: _Words, components: Tuple[int, ...]) -> Draw:
+def _draw(words: _Words, components: Tuple[int, ...]) -> SceneDraw:
     vertices, triangles, exact = words.ints(3)
-    viewport = tuple(float(v) for v in words.take((6,), "<f4"))
+    x, y, width, height, near, far = (float(v) for v in words.take((6,), "<f4"))
     _, fill_rule, front_face, cull, depth_mode, depth_write, conservative, has_scissor = words.ints(8)
-    scissor = tuple(int(v) for v in words.take((4,), "<i4"))
+    x0, y0, x1, y1 = (int(v) for v in words.take((4,), "<i4"))
     has_grid, bits, rounding, offset_x, offset_y = words.ints(5)
     positions, clip = words.take((vertices, 4), "<f4"), words.take((vertices, 4), "<f4")
     corners, identifiers = words.take((triangles, 3)), words.take((triangles,))
     attributes = []
     for number in components:
         interpolation = words.ints(1)[0]
-        attributes.append(Attribute(words.take((vertices, number), "<f4"),
-                                    ("perspective", "noperspective", "flat")[interpolation]))
-    return Draw(positions, clip, bool(exact), viewport, corners, identifiers, attributes, _FILL_RULES[fill_rule],
-                ("clockwise", "counter_clockwise")[front_face], ("none", "front", "back")[cull],
-                ("none", "clip", "clamp")[depth_mode], bool(depth_write), ("none", "over", "inner")[conservative],
-                scissor if has_scissor else None,
-                (bits, _ROUNDINGS[rounding], offset_x, offset_y) if has_grid else None)
+        attributes.append(SceneAttribute(words.take((vertices, number), "<f4"),
+                                         ("perspective", "noperspective", "flat")[interpolation]))
+    return SceneDraw(positions, clip, bool(exact), (x, y, width, height, near, far), corners, identifiers, attributes,
+                     _FILL_RULES[fill_rule], ("clockwise", "counter_clockwise")[front_face],
+                     ("none", "front", "back")[cull], ("none", "clip", "clamp")[depth_mode], bool(depth_write),
+                     ("none", "over", "inner")[conservative], (x0, y0, x1, y1) if has_scissor else None,
+                     (bits, _ROUNDINGS[rounding], offset_x, offset_y) if has_grid else None)
 
 
 def _number_of(what: str, value: str, choices: Sequence[str]) -> int:
@@ -202,7 +202,7 @@ def _answer(scene: Scene, result: object) -> bytes:
     return b"".join(parts)
 
 
-def each_triangle(covers: Callable[[NDArray[np.float64], int, int], NDArray]) -> Callable[[Scene], NDArray[np.uint32]]:
+def each_triangle(covers: Callable[[NDArray[np.float64], int, int], NDArray[Any]]) -> Callable[[Scene], NDArray[np.uint32]]:
     """A draw function for the output "count", of one that draws a single triangle into an image of its own.
 
     covers(xy, height, width): xy is (3, 2) float64, pixels, y down; what is not 0 in the (height, width) array that it returns
@@ -219,7 +219,7 @@ def each_triangle(covers: Callable[[NDArray[np.float64], int, int], NDArray]) ->
     return draw
 
 
-def serve(draw: Callable[[Scene], Union[NDArray, Mapping[str, object]]], *, name: str, version: str = "",
+def serve(draw: Callable[[Scene], Union[NDArray[Any], Mapping[str, object]]], *, name: str, version: str = "",
           outputs: Sequence[str] = ("count",), features: Sequence[str] = (), form: str = "pixel", model: str = "unknown",
           grid_bits: int = 0, grid_rounding: str = "nearest_even", grid_offset: Tuple[int, int] = (0, 0),
           fill_rule: str = "top_left", profile: str = "opengl", rows: str = "down", clip_depth: str = "zero_to_one",
@@ -233,7 +233,7 @@ def serve(draw: Callable[[Scene], Union[NDArray, Mapping[str, object]]], *, name
     outputs    that it has: at least one of count, index, depth. certify makes counts up by drawing each triangle alone.
     features   that it has beyond plain triangles in front of the eye: behind, draws, samples, cull, scissor, ... (the bits of
                certify/adapter.h, in lower case). What is not claimed is never asked for.
-    form       "pixel" or "clip": whether it reads Draw.positions or Draw.clip.
+    form       "pixel" or "clip": whether it reads SceneDraw.positions or SceneDraw.clip.
     model      "unknown" (certify finds out), "exact", or "grid" with the grid_... and the fill_rule.
     profile    how precise depth and attributes are meant to be: "exact", "d3d11", "vulkan" or "opengl".
     rows       "down", or "up" if row 0 of its images is the bottom one.

@@ -56,7 +56,7 @@ FAST_LITERAL = re.compile(r"(?<=[ (\[~])(\d+)(\.0f?|u|)(?=[),;\]}]| [-+*/<>=?:&|
 FAST_STATEMENT = re.compile(r"^(\s+)((?:[a-z_]\w*(?:\.|->|\[|\(| [-+*|&]?= )|\+\+\w|[A-Z]\w*(?:<\w+>)?\((?!\))|hn::\w*Store\().*"
                             r"|break;|continue;)$")
 LOGIC = re.compile(r"(?<=[\w)\]]) (&&|\|\|)(?= |$)")
-ARRAY = re.compile(r"^\s*(?:alignas\([^=;]*|(?:const )?[\w:]+(?:<\w+>)?(?: \*?const|\*)? (?:\w+(?: = \w+)?, )*\w+\[[^=;]*)|\(&\w+\)\[\d\]")
+ARRAY = re.compile(r"^\s*(?:alignas\([^=;]*|(?:const )?[\w:]+(?:<[\w()]+>)?(?: \*?const|\*)? (?:\w+(?: = \w+)?, )*\w+\[[^=;]*)|\(&\w+\)\[\d\]")
 VECTOR = re.compile(r"\bhn::(\w+)(?:<(\d+)>)?(?=\()")
 VECTOR_MUTANTS = set("Abs Add AllFalse And AndNot Ceil Combine Div Eq Floor Ge Gt IfThenElse IfThenElseZero IfThenZeroElse "
                      "InterleaveLower InterleaveUpper Le Lt Max MaxOfLanes Min MinOfLanes Mul Ne Neg Not Or Round ShiftLeft "

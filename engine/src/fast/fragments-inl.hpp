@@ -214,17 +214,30 @@ class Fragments {
     const bool initial = !target.initial_depth.empty();
     const int columns = target.width - tile_x_, rows = target.height - tile_y_;
     if (!initial && columns >= kTileSize && rows >= kTileSize) return true;
-    for (int y = 0; y < kTileSize; ++y) {
-      for (int x = 0; x < kTileSize; ++x) {
-        float& depth = depth_[offset_in_tile(x, y)];
+    for (int y = 0; y < kTileSize; y += kCellSize) {
+      for (int x = 0; x < kTileSize; x += kCellSize) {
+        float* const cell = depth_ + offset_in_tile(x, y);
         if (x >= columns || y >= rows) {
-          depth = -kInfinity;
-        } else if (initial) {
-          depth = kept_depth(target, target.initial_depth[frame_.sample_index(tile_x_ + x, tile_y_ + y)]);
+          std::fill_n(cell, kCellSamples, -kInfinity);
+        } else if (initial || x + kCellSize > columns || y + kCellSize > rows) {
+          OpenCell(cell, x, y);
         }
       }
     }
     return false;
+  }
+
+  // The cell from (x, y) of the tile on, where it has initial depth or the target ends within it.
+  void OpenCell(float* cell, int x, int y) const {
+    const Target& target = *frame_.target;
+    for (int k = 0; k < static_cast<int>(kCellSamples); ++k) {
+      const int px = tile_x_ + x + (k & 3), py = tile_y_ + y + (k >> 2);
+      if (px >= target.width || py >= target.height) {
+        cell[k] = -std::numeric_limits<float>::infinity();
+      } else if (!target.initial_depth.empty()) {
+        cell[k] = kept_depth(target, target.initial_depth[frame_.sample_index(px, py)]);
+      }
+    }
   }
 
   // Lanes from an offset on that lie in the box of a record.

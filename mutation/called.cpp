@@ -2,6 +2,7 @@
 #include "mutation/called.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cctype>
@@ -131,15 +132,18 @@ std::vector<std::string> called(Pool& pool, Render render) {
   std::vector<std::string> sentences;
   Drawn drawn(render);
   const judge::Inference found = judge::infer(drawn, adapters::oracle_expected(), judge::Model{});
-  std::string model;
-  for (const std::string& problem : found.problems) model += (model.empty() ? "" : "; ") + problem;
+  std::vector<std::string> model;
+  if (!found.shape.empty()) model.push_back(found.shape);
   if (found.known) {
-    for (const std::string& sentence : judge::departures(found.model)) model += (model.empty() ? "" : "; ") + sentence;
-    if (model.empty()) {
-      for (const std::string& sentence : judge::differences({}, found.model)) model = sentence;
+    for (const std::string& sentence : judge::differences({}, found.model)) model.push_back(sentence);
+    for (const std::string& sentence : judge::departures(found.model)) {
+      if (std::find(model.begin(), model.end(), sentence) == model.end()) model.push_back(sentence);
     }
   }
-  if (!model.empty()) sentences.push_back(model);
+  // Rounding on the way comes of what else it does.
+  if (model.size() > 1)
+    std::erase_if(model, [](const std::string& s) { return s.starts_with("positions are blurred"); });
+  if (!model.empty()) sentences.push_back(fmt::format("{}", fmt::join(model, "; ")));
   const std::vector<judge::Wrong> wrong = shown_wrong(pool, render);
   const auto still_wrong = [render](const Scene& scene) {
     return properties::compare(scene, right, render, properties::outputs_of(scene), 1).differences > 0;
@@ -148,6 +152,8 @@ std::vector<std::string> called(Pool& pool, Render render) {
        certify::sentences_of(judge::name_fault(certify::known_faults(), wrong, false), wrong, still_wrong)) {
     sentences.push_back(sentence);
   }
+  // That no model explains it is no name.
+  sentences.insert(sentences.end(), found.problems.begin(), found.problems.end());
   return sentences;
 }
 

@@ -57,7 +57,7 @@ struct Outcome {
 Outcome first_finding(const ZooRivalOptions& options, const Animal& animal) {
   certify::RivalChoice choice;
   choice.plugin = options.plugin;
-  choice.arguments = animal.name;
+  choice.arguments = (options.undeclared ? "undeclared-" : "") + animal.name;
   choice.time_limit = 120;  // most are exact arithmetic, slow on meshes
   Outcome outcome;
   const std::unique_ptr<adapters::Rival> rival = certify::start_rival(choice);

@@ -16,6 +16,7 @@ struct ZooRivalOptions {
   std::string plugin;             // libsurefill_zoo.so
   std::vector<std::string> only;  // names with * and ?; empty: all
   certify::Settings settings;     // level, seed, corpus
+  bool undeclared = false;        // they say nothing of their model
   int jobs = 1;
 };
 

@@ -72,6 +72,8 @@ int parse_and_run(int argc, char** argv) {
   CLI::Option* plugin = app.add_option("--plugin", arguments.rivals.plugin,
                                        "libsurefill_zoo.so: certify each as a rival behind the adapter instead");
   certify::add_names(app, "--only", arguments.rivals.only, "Names with * and ?, separated by commas")->needs(plugin);
+  app.add_flag("--undeclared", arguments.rivals.undeclared, "With --plugin: none says what its model is")
+      ->needs(plugin);
   app.add_flag("--names", arguments.names, "Say what each specimen's fault is called, and thirty further ones");
   app.add_option("--level", arguments.level, "Of certify: quick, standard or thorough (quick)")
       ->check(CLI::IsMember({"quick", "standard", "thorough"}))

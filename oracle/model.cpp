@@ -274,7 +274,7 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
   const bool kept = d == 0 ? area.all_zero() : d > 0 ? area.all_positive() : area.all_negative();
   const bool points = std::all_of(placed.boxes.begin(), placed.boxes.end(), [](const Box& b) { return b.is_point(); });
   if (kept && d == 0) {
-    placed.kind = Placed::Kind::nothing;
+    placed.kind = model.draws_flat ? Placed::Kind::open : Placed::Kind::nothing;
   } else if (kept && culled) {
     placed.kind = Placed::Kind::nothing;
   } else if (!std::all_of(t.begin(), t.end(), drawn)) {
@@ -285,7 +285,9 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
                                placed.boxes[1].y.near_low, placed.boxes[2].x.near_low, placed.boxes[2].y.near_low));
     if (model.least_area > 0 && size < 2 * model.least_area) placed.kind = Placed::Kind::open;
   } else if (model.culled == Cull::none && model.turned == Turned::as_grid && points) {
-    placed.kind = area.all_zero() ? Placed::Kind::nothing : Placed::Kind::boxes;
+    placed.kind = !area.all_zero()   ? Placed::Kind::boxes
+                  : model.draws_flat ? Placed::Kind::open
+                                     : Placed::Kind::nothing;
     placed.front = area.all_positive();
   } else if (model.culled == Cull::none && model.turned == Turned::nothing && d != 0 &&
              (d > 0 ? !area.positive : !area.negative)) {

@@ -92,7 +92,8 @@ struct Model {
   Owners front = owners_of(FillRule::top_left), back = front;
   AtVertices vertices = AtVertices::as_edges;
   Turned turned = Turned::open;
-  double least_area = 0;  // twice the area in pixels: R8
+  double least_area = 0;    // twice the area in pixels: R8
+  bool draws_flat = false;  // triangles in a line are drawn somehow: R8
   double least_w = 0, most_w = std::numeric_limits<double>::infinity();
   Cull culled = Cull::none;                      // always: R10
   std::optional<std::array<double, 2>> clipped;  // to this depth, always: R10

@@ -133,6 +133,7 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
                 : subject.terms.known ? judge::describe(subject.terms.model)
                                       : "unknown";
   if (found.known) facts.departures = judge::departures(found.model);
+  if (!found.shape.empty()) facts.departures.insert(facts.departures.begin(), found.shape);
   facts.open = found.open;
   facts.turns = judge::turns_text(found.turns);
   facts.problems = subject.inference.problems;

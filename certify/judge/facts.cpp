@@ -108,6 +108,8 @@ void infer_visibility(Rival& rival, Inference& result, const corpus::Outputs& ha
   if (!seen(1.0f) || !seen(2.0f)) result.model.clear = 1;
   if (!has.index) return;
   corpus::Scene twice = large(result.model, 0.5f);
+  // Whose indices are others says nothing by them.
+  if (rival.draw(twice, wanted).index[kMiddle] != 0) return;
   twice.draws[0].triangles.push_back(twice.draws[0].triangles[0]);
   result.model.later_wins = rival.draw(twice, wanted).index[kMiddle] == 1;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Which model a rasterizer follows (section 11), from its table of turns and a few hundred small triangles.
+// Which model a rasterizer follows (section 11): from its table of turns, axis by axis (axes.hpp), then the place of its
+// samples (places.hpp), then who owns edges (owners.hpp); all of it is tried on other triangles.
 #ifndef SUREFILL_CERTIFY_JUDGE_INFERENCE_HPP
 #define SUREFILL_CERTIFY_JUDGE_INFERENCE_HPP
 
@@ -19,6 +20,7 @@ struct Inference {
   bool exact_values = false;  // every flat depth came back as it was given, to the bit
   bool offscreen = true;      // it takes vertices beside the target
   std::vector<Turn> turns;
+  std::string shape;                  // what the table of turns says at a glance, if that is no sample's: a sentence
   std::vector<std::string> open;      // what could not be found out, and why: no findings
   std::vector<std::string> problems;  // what no model explains: findings, one sentence each
 };

@@ -31,15 +31,27 @@ float source_of(double position, const AxisModel& axis, int length) {
 
 constexpr int kLatticeSize = 8;
 
-bool covers_middle(Rival& rival, const Model& model, const std::array<std::array<double, 2>, 3>& from_sample) {
+// The triangle around the sample in the middle.
+corpus::Image draw_around(Rival& rival, const Model& model, const std::array<std::array<double, 2>, 3>& from_sample) {
   std::array<Point, 3> triangle{};
   for (std::size_t i = 0; i < 3; ++i) {
     triangle[i] = {source_of(3 + model.x.place + from_sample[i][0], model.x, kLatticeSize),
                    source_of(3 + model.y.place + from_sample[i][1], model.y, kLatticeSize)};
     triangle[i] = {on_step(triangle[i].x, rival.position_step()), on_step(triangle[i].y, rival.position_step())};
   }
-  const corpus::Image image = rival.draw(flat_scene(kLatticeSize, kLatticeSize, {triangle}), covering(rival));
-  return is_covered(image, 3 * kLatticeSize + 3);
+  return rival.draw(flat_scene(kLatticeSize, kLatticeSize, {triangle}), covering(rival));
+}
+
+bool covers_middle(Rival& rival, const Model& model, const std::array<std::array<double, 2>, 3>& from_sample) {
+  return is_covered(draw_around(rival, model, from_sample), 3 * kLatticeSize + 3);
+}
+
+bool covers_any(Rival& rival, const Model& model, const std::array<std::array<double, 2>, 3>& from_sample) {
+  const corpus::Image image = draw_around(rival, model, from_sample);
+  for (std::size_t s = 0; s < kLatticeSize * kLatticeSize; ++s) {
+    if (is_covered(image, s)) return true;
+  }
+  return false;
 }
 
 bool lattice_covers(Rival& rival, const Model& model, const Lattice& lattice) {
@@ -136,6 +148,17 @@ void infer_owners(Rival& rival, Inference& result) {
 
 void infer_small(Rival& rival, Inference& result) {
   Model& model = result.model;
+  // In a line, which runs through the sample or past it.
+  for (const auto& direction : {std::array<int, 2>{1, 1}, {1, 0}, {0, 1}, {2, 1}, {1, -2}}) {
+    const auto [dx, dy] = direction;
+    for (const double aside : {0.0, 0.25}) {
+      const auto at = [&, dx = dx, dy = dy](double along) {
+        return std::array<double, 2>{along * dx + aside * (dy == 0 ? 0 : 1), along * dy + aside * (dy == 0 ? 1 : 0)};
+      };
+      model.draws_flat = model.draws_flat || covers_any(rival, model, {at(-1), at(1), at(0.5)}) ||
+                         covers_any(rival, model, {at(1), at(-1), at(-1)});
+    }
+  }
   const int finest = std::min({12, model.x.bits < 0 ? 12 : model.x.bits, model.y.bits < 0 ? 12 : model.y.bits});
   double drawn = 0;
   for (int k = 1; k <= finest; ++k) {

@@ -183,6 +183,8 @@ std::vector<std::string> departures(const Model& model) {
   }
   if (model.least_area > 0)
     sentences.push_back(text("it leaves out triangles smaller than some %.2g square pixels", model.least_area));
+  if (model.draws_flat)
+    sentences.emplace_back("triangles without area are drawn, as the lines that they are or otherwise");
   if (model.least_w > 0) sentences.push_back(text("it draws nothing of W below %g", model.least_w));
   if (std::isfinite(model.most_w)) sentences.push_back(text("it draws nothing of W above %g", model.most_w));
   if (std::isfinite(model.clear))
@@ -233,6 +235,32 @@ std::string turns_problem(const std::vector<Turn>& turns) {
   for (const Turn& t : turns) spread = std::max(spread, t.found ? t.spread : 0);
   if (spread > 1.0 / 8) return text("near an edge it covers some samples and not others, over %.3g pixels", spread);
   return "";
+}
+
+std::string turns_shape(const std::vector<Turn>& turns) {
+  std::array<double, 2> reach{};
+  for (const int axis : {0, 1}) {
+    std::array<double, 2> low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
+    for (const Turn& t : turns) {
+      if (t.axis != axis || !t.found) continue;
+      const std::size_t side = t.far ? 1 : 0;
+      low[side] = std::min(low[side], t.at());
+      high[side] = std::max(high[side], t.at());
+    }
+    if (!(high[0] - low[0] < 1.0 / 256) || !(high[1] - low[1] < 1.0 / 256)) return "";
+    reach[static_cast<std::size_t>(axis)] = (low[0] + high[0] - low[1] - high[1]) / 4;
+  }
+  if (std::abs(reach[0] - reach[1]) > 1.0 / 64 || std::abs(reach[0]) < 1.0 / 512) return "";
+  const double beyond = (reach[0] + reach[1]) / 2;
+  if (std::abs(beyond - 0.5) < 1.0 / 64) {
+    return "it covers every pixel that a triangle touches, not those whose sample lies inside: neighbours overlap";
+  }
+  if (std::abs(beyond + 0.5) < 1.0 / 64) {
+    return "it covers only pixels that lie inside a triangle whole, not all whose sample does: neighbours gape";
+  }
+  return "edges reach " + pixels(beyond) +
+         (beyond > 0 ? " further out than they are, on every side, as by an epsilon: neighbours overlap"
+                     : " less far than they are, on every side, as by an epsilon: neighbours gape");
 }
 
 }  // namespace surefill::judge

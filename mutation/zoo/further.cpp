@@ -173,20 +173,20 @@ constexpr FurtherFault kFaults[] = {
     {"last-of-equals", "of equal depths the later triangle is seen", "LEQUAL: zauonlok, RenderHelp",
      "equal|later|last|tie",
      [](const Target& t, Draws d) {
-       // The image of the triangles from last to first, each with its own index.
-       std::vector<Draw> single = one_by_one(d);
-       const Status status = right(t, d);
-       if (status != Status::ok || t.index.empty() || t.depth.empty()) return status;
-       for (const Draw& one : single) {
-         const std::size_t total = sample_total(t);
-         std::vector<std::uint32_t> index(total);
-         std::vector<float> depth(total);
-         Target alone;
-         alone.width = t.width, alone.height = t.height, alone.samples = t.samples, alone.depth_test = t.depth_test;
-         alone.index = index, alone.depth = depth;
+       // Where the depth that is seen is a later triangle's, too, that one's index.
+       const std::size_t total = sample_total(t);
+       std::vector<float> seen_depth(total), depth(total);
+       std::vector<std::uint32_t> index(total);
+       Target whole = t, alone;
+       if (whole.depth.empty()) whole.depth = seen_depth;
+       const Status status = right(whole, d);
+       if (status != Status::ok || t.index.empty()) return status;
+       alone.width = t.width, alone.height = t.height, alone.samples = t.samples, alone.depth_test = t.depth_test;
+       alone.index = index, alone.depth = depth;
+       for (const Draw& one : one_by_one(d)) {
          if (right(alone, {&one, 1}) != Status::ok) continue;
          for (std::size_t s = 0; s < total; ++s) {
-           if (index[s] != kNoTriangle && depth[s] == t.depth[s]) t.index[s] = index[s];
+           if (index[s] != kNoTriangle && depth[s] == whole.depth[s]) t.index[s] = index[s];
          }
        }
        return status;

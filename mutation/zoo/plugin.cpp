@@ -2,14 +2,15 @@
 //
 // The zoo behind the adapter header: the argument names the rasterizer, a specimen of mutation/zoo or a right one:
 // "exact", "exact-second", "grid-BITS-ROUNDING-CORNER", such as grid-8-nearest-even-top-left, or "right-NUMBER", which
-// is right in its own way and says nothing of it (mutation/zoo/right.hpp). "undeclared-" before a
-// name: it does not say what its model is.
+// is right in its own way and says nothing of it (mutation/zoo/right.hpp), or "further-NAME" (mutation/zoo/further.hpp).
+// "undeclared-" before a name: it does not say what its model is.
 #include <cstdio>
 #include <optional>
 #include <string>
 
 #include "certify/adapter.h"
 #include "certify/rivals/plugin_frame.hpp"
+#include "mutation/zoo/further.hpp"
 #include "mutation/zoo/names.hpp"
 #include "mutation/zoo/right.hpp"
 #include "mutation/zoo/zoo.hpp"
@@ -49,6 +50,9 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
   Instance instance;
   for (const zoo::Specimen& specimen : zoo::specimens()) {
     if (name == specimen.name) instance.render = specimen.render;
+  }
+  for (const zoo::FurtherFault& fault : zoo::further_faults()) {
+    if (name == std::string("further-") + fault.name) instance.render = fault.render;
   }
   info->features = adapters::kAllFeatures;
   info->model.kind = SUREFILL_ADAPTER_MODEL_EXACT;

@@ -191,6 +191,18 @@ TEST(Model, ChoicesByHand) {
   EXPECT_NE(answers.find('#'), std::string::npos) << answers;
 }
 
+// R8: what is in a line covers nothing, unless the model says that it is drawn; then who knows what.
+TEST(Model, TrianglesInALineAreOpenWhereTheyAreDrawn) {
+  const std::array<Vertex, 3> flat{{{0.5f, 0.5f, 0, 1}, {2.5f, 2.5f, 0, 1}, {1.5f, 1.5f, 0, 1}}};
+  Model model;
+  const std::vector<Cover> none = cover(model, 4, 4, 1, flat);
+  EXPECT_EQ(std::count(none.begin(), none.end(), Cover::no), 16);
+  model.draws_flat = true;
+  const std::vector<Cover> line = cover(model, 4, 4, 1, flat);
+  for (int s = 0; s < 16; ++s)
+    EXPECT_EQ(line[static_cast<std::size_t>(s)], s == 0 || s == 5 || s == 10 ? Cover::open : Cover::no);
+}
+
 TEST(Model, RoundingsDifferAtTiesOnly) {
   // An edge at 0.5 of a grid of whole pixels, and at -0.5 off the screen: seen through a slanted edge's other end.
   const auto covers = [](Rounding rounding, float edge) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The exact image, by CGAL and GMP: slow and obviously right. Shares no arithmetic with the engine; of the engine it
-// uses the public types alone. Sections 1 to 8 of docs/semantics.md are covered, and of section 10 what is about
-// triangles (S6, S7, M9, M10, M4a to M4c, V4, V5, I8): all of a target and of a draw that surefill.hpp has.
+// uses the public types alone. Sections 1 to 8 of docs/semantics.md are covered: all of a target and of a draw that
+// surefill.hpp has.
 #ifndef SUREFILL_ORACLE_ORACLE_HPP
 #define SUREFILL_ORACLE_ORACLE_HPP
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The modes of section 10 of docs/semantics.md that are about triangles: both oracles on random small frames, on a
-// lattice where samples lie on edges, triangles share edges, D is 0 and vertices are behind the eye; and what the page
-// says of images, of both.
+// Origin, sample places, winding, numbers of a triangle, conservative modes, layers, depth tests and bias (S6, S7, M9,
+// M10, M4a to M4c, V4, V5, I8 of docs/semantics.md): both oracles on random small frames, on a lattice where samples lie
+// on edges, triangles share edges, D is 0 and vertices are behind the eye; and what the page says of images, of both.
 #include <gtest/gtest.h>
 
 #include <algorithm>

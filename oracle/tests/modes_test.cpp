@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The modes of section 10 of docs/semantics.md that are about triangles: both oracles against images worked out by
-// hand.
+// Origin, sample places, winding, numbers of a triangle, conservative modes, layers, depth tests and bias (S6, S7, M9,
+// M10, M4a to M4c, V4, V5, I8 of docs/semantics.md): both oracles against images worked out by hand.
 #include <gtest/gtest.h>
 
 #include <cmath>

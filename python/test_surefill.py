@@ -136,7 +136,7 @@ class Arrays(unittest.TestCase):
                 np.testing.assert_array_equal(surefill.rasterize(positions, triangles, SIZE).depth, expected)
         nan = POSITIONS.astype(np.float64)
         nan[0, 0] = np.nan  # is NaN in float32, too
-        self.assertEqual(surefill.rasterize(nan, TRIANGLES, SIZE).statistics.dropped, 2)
+        self.assertEqual(surefill.rasterize(nan, TRIANGLES, SIZE, outputs="statistics").statistics.dropped, 2)
 
     def test_conversions_on_request(self):
         positions = POSITIONS.astype(np.float64) + 0.1
@@ -266,8 +266,8 @@ class Modes(unittest.TestCase):
             self.assertEqual(int(surefill.coverage(line, [[0, 1, 2]], SIZE, conservative=how).sum()), pixels, how)
         owner = surefill.rasterize(POSITIONS, TRIANGLES[:1], SIZE, conservative="over")
         np.testing.assert_array_equal(owner.mask, surefill.coverage(POSITIONS, TRIANGLES[:1], SIZE, conservative="over") == 1)
-        self.assertEqual(surefill.rasterize(POSITIONS, TRIANGLES, SIZE, cull="front").statistics.culled, 2)
-        reference = surefill.render([surefill.Draw(self.V, self.T)], SIZE, path="reference")
+        self.assertEqual(surefill.rasterize(POSITIONS, TRIANGLES, SIZE, cull="front", outputs="statistics").statistics.culled, 2)
+        reference = surefill.render([surefill.Draw(self.V, self.T)], SIZE, path="reference", outputs=["barycentrics", "statistics"])
         self.assertEqual(reference.statistics.path, "reference")
         np.testing.assert_array_equal(reference.barycentrics, surefill.rasterize(self.V, self.T, SIZE).barycentrics)
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import concurrent.futures
 import ctypes
+import threading
 from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -234,16 +235,50 @@ def draw_frames(draws: Sequence[Draw], settings: Settings, outputs: Sequence[str
             numbers = [tuple(per_triangle[name][d][image] if number == 0 and name in per_triangle else None
                              for name in _PER_TRIANGLE) for d in range(len(draws))]
             structs, alive = draw_structs(draws, image, some, numbers)  # type: ignore[arg-type]
-            told = c.Statistics(struct_size=ctypes.sizeof(c.Statistics))
+            told = c.Statistics(struct_size=ctypes.sizeof(c.Statistics)) if "statistics" in outputs and number == 0 else None
             options = _Options(settings)
             options.check(c.render(target, structs, len(draws), options.struct, told))
             del alive
             for group, (_, buffer) in zip(some, targets):
                 if buffer is not None and result is not None:
-                    (result if settings.batch is None else result[image])[..., group.first:group.last] = buffer
-            if number == 0:
+                    _put_columns(result if settings.batch is None else result[image], group, buffer)
+            if told is not None:
                 statistics.append(_statistics(told))
     return Frame(arrays, result, per_triangle, statistics)
+
+
+class _Scratch(threading.local):
+    """Images whose columns go into others, of this thread: up to 16 MB stay for the next call, as fresh memory is slow."""
+
+    MOST = 16 << 20
+
+    def __init__(self) -> None:
+        self.arrays: Dict[int, NDArray[np.float32]] = {}
+
+
+_SCRATCH = _Scratch()
+
+
+def _scratch(number: int, shape: Tuple[int, ...]) -> NDArray[np.float32]:
+    kept, size = _SCRATCH.arrays, int(np.prod(shape))
+    if number not in kept or kept[number].size < size:
+        kept.pop(number, None)
+        array = np.empty(size, np.float32)
+        if array.nbytes + sum(other.nbytes for other in kept.values()) > _Scratch.MOST:
+            return array.reshape(shape)
+        kept[number] = array
+    return kept[number][:size].reshape(shape)
+
+
+def _put_columns(result: NDArray[np.float32], group: Groups, buffer: NDArray[np.float32]) -> None:
+    """result[..., group.first:group.last] = buffer, by units of as many floats as divide all, each in one run over the image."""
+    columns = group.last - group.first
+    unit, dtype = next((n, d) for n, d in ((4, np.complex128), (2, np.float64), (1, np.float32))
+                       if group.first % n == 0 and columns % n == 0 and result.shape[-1] % n == 0)
+    to: NDArray[Any] = result.reshape(-1, result.shape[-1]).view(dtype)
+    pieces: NDArray[Any] = buffer.reshape(-1, columns).view(dtype)
+    for k in range(columns // unit):
+        to[:, group.first // unit + k] = pieces[:, k]
 
 
 def _attribute_targets(settings: Settings, groups: Sequence[Groups], image: int, result: Optional[NDArray[np.float32]],
@@ -259,7 +294,7 @@ def _attribute_targets(settings: Settings, groups: Sequence[Groups], image: int,
             continue
         buffer = buffers.get(number)
         if buffer is None or buffer.shape[-1] != components:
-            buffer = buffers[number] = np.empty((*of_image.shape[:-1], components), np.float32)
+            buffer = buffers[number] = _scratch(number, (*of_image.shape[:-1], components))
         targets.append((c.AttributeTarget(buffer.ctypes.data, buffer.size, components), buffer))
     return targets
 

@@ -15,7 +15,7 @@ NO_TRIANGLE: int = 0xFFFFFFFF
 """The index of a sample that no triangle covers."""
 
 _DEFAULT = ("index", "depth", "barycentrics")
-_ALL = (*OUTPUTS, "covered", "visible")
+_ALL = (*OUTPUTS, "covered", "visible", "statistics")
 
 
 class Raster:
@@ -93,6 +93,8 @@ class Raster:
     @property
     def statistics(self) -> Any:
         """What became of the triangles: Statistics; of a batch, a list."""
+        if not self._frame.statistics:
+            raise AttributeError("statistics: they were not asked for; outputs=[..., 'statistics'] does")
         return self._frame.statistics[0] if self._settings.batch is None else self._frame.statistics
 
     def packed(self) -> NDArray[np.float32]:
@@ -150,8 +152,8 @@ def render(draws: Sequence[Draw], size: Sequence[int], *, outputs: Union[str, Se
     """Draws a list of `Draw`, each in its own state, in order, each onto the image of those before it.
 
     size         (height, width) in pixels, 1..16384 each.
-    outputs      of "index", "depth", "barycentrics", "count", "winding", "covered", "visible": what is to be had; no more is
-                 computed. Attributes are had where draws have them.
+    outputs      of "index", "depth", "barycentrics", "count", "winding", "covered", "visible", "statistics": what is to be had;
+                 no more is computed. Attributes are had where draws have them.
     samples      a pixel: 1, 2, 4, 8 or 16, at the standard places, or at sample_locations: (x, y) of each, in 1/16 pixel.
     depth_test   "less" or "greater"; the later one of equal depths is seen with "less_equal" and "greater_equal".
     layers       the nearest 1..16 fragments of each sample, with an axis of their own.
@@ -189,7 +191,7 @@ def rasterize(positions: ArrayLike, triangles: ArrayLike, size: Sequence[int], *
                  with depth Z/W. (N, V, 4): a batch of N images, which each output has as its first axis.
     triangles    (T, 3) whole numbers, rows of positions.
     size         (height, width) in pixels, 1..16384 each.
-    outputs      what is to be had; no more is computed: "index", "depth", "barycentrics", "count", "winding", "covered", "visible".
+    outputs      what is to be had; no more is computed: "index", "depth", "barycentrics", "count", "winding", ...
     attributes   (V, C) float32, any number of columns: `raster.attributes` then has them, in the same pass.
 
     The other arguments are those of `Draw` and `render`: help(surefill.Draw), help(surefill.render)."""

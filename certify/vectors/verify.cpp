@@ -129,6 +129,8 @@ std::string likely(std::span<const Owed> owed, const std::set<int>& answered, co
                          fault);
   std::sort(ranks.begin(), ranks.end());
   std::string text;
+  constexpr double kLeast = 0.2;  // below that, what failed is another fault than those that are known
+  if (ranks.empty() || -ranks[0].first < kLeast) return text;
   for (std::size_t i = 0; i < ranks.size() && i < 3 && ranks[i].first <= 0.8 * ranks[0].first; ++i) {
     const auto& n = seen[ranks[i].second];
     text += fmt::format("{}{} ({} of {} that failed, {} of {} that show it)", i == 0 ? "" : ", ", ranks[i].second,

@@ -49,7 +49,6 @@ def cross(u, v):
     return (u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0])
 def dot(u, v):
     return sum(a * b for a, b in zip(u, v))
-
 def cut(path, heights, between):
     """A closed path cut to where the heights are not negative (Sutherland and Hodgman)."""
     result, n = [], len(path)
@@ -60,9 +59,9 @@ def cut(path, heights, between):
 class Triangle:
     """A sample is (x, y, w): the point (x / w, y / w), whole numbers, w > 0."""
 
-    def __init__(self, vertices, attributes, draw):
+    def __init__(self, vertices, attributes, draw, origin):
         self.attributes, self.kinds, self.state = attributes, [a["interpolation"] for a in draw.get("attributes", [])], draw["state"]
-        self.rule, self.grid = self.state["fill_rule"], self.state.get("grid")
+        self.rule, self.grid, self.origin = self.state["fill_rule"], self.state.get("grid"), origin
         exact = [[Fraction(number) for number in vertex] for vertex in vertices]
         scale = max(number.denominator for vertex in exact for number in vertex)
         self.vertices = [[int(number * scale) for number in vertex] for vertex in exact]  # X, Y, Z, W times one number
@@ -85,7 +84,7 @@ class Triangle:
         """G1: the path v0 v1 v2 v0 in the guard band."""
         path = self.vertices
         for axis, side in ((0, 1), (0, -1), (1, 1), (1, -1)):
-            path = cut(path, [(2**14 + 1) * corner[3] - side * corner[axis] for corner in path],
+            path = cut(path, [(2**14 + 1 + side * self.origin[axis]) * corner[3] - side * corner[axis] for corner in path],
                        lambda a, b, h, g: [g * u + h * v for u, v in zip(a, b)])
         return path
 
@@ -128,6 +127,12 @@ class Triangle:
             return self.plane(p)
         return min(max(self.plane(p), min(self.depths)), max(self.depths)) if self.d else min(self.depths)
 
+    def bias(self):
+        """I8."""
+        constant, slope = (Fraction(from_bits(text)) for text in self.state.get("depth_bias", ("00000000", "00000000")))
+        planes = [sum(v[2] * edge[axis] for v, edge in zip(self.vertices, self.edges)) for axis in (0, 1)]
+        return constant + (slope * Fraction(max(map(abs, planes)), abs(self.d)) if self.d else 0)
+
     def weights(self, p):
         """The E_i that count (G2), divided by p's w."""
         values = [Fraction(e) / p[2] for e in self.at(p)]
@@ -153,15 +158,25 @@ class Triangle:
             return values[0]
         return sum(e * u for e, u in zip(w, values)) / total
 
-    def meets_square(self, x, y, inner):
-        """M4."""
+    def meets_square(self, x, y, mode):
+        """M4, M4a, M4b."""
+        between = lambda p, q, h, g: tuple((g * u + h * v) / (g + h) for u, v in zip(p, q))
         square = [(Fraction(u), Fraction(v)) for u, v in ((x, y), (x + 1, y), (x + 1, y + 1), (x, y + 1))]
-        for a, b, c in self.edges:
+        for a, b, c in self.edges if self.d else ():
             heights = [(a * u + b * v + c) * sign(self.d) for u, v in square]
-            if inner and min(heights) < 0:
+            if mode == "inner" and min(heights) < 0:
                 return False
-            square = cut(square, heights, lambda p, q, h, g: tuple((g * u + h * v) / (g + h) for u, v in zip(p, q)))
-        return self.d != 0 and bool(square)
+            square = cut(square, heights, between)
+        if self.d:
+            area = sum(p[0] * q[1] - p[1] * q[0] for p, q in zip(square, square[1:] + square[:1]))
+            return area != 0 if mode == "overlap" else bool(square)
+        met = False
+        for k in range(3 if mode == "touched" else 0):  # S of an edge: where W > 0
+            path = [tuple(map(Fraction, m)) for m in (self.m[k], self.m[k - 1])]
+            for height in (lambda m: m[0] - x * m[2], lambda m: (x + 1) * m[2] - m[0], lambda m: m[1] - y * m[2], lambda m: (y + 1) * m[2] - m[1]):
+                path = cut(path, [height(m) for m in path], between)
+            met = met or any(m[2] > 0 for m in path)
+        return met
 
 def model_answer(triangle, bits, p):
     """R5 to R9 for a grid of so many bits, nearest-even, slivers open: 1 covered, 0 not covered, None open."""
@@ -186,7 +201,7 @@ def interval(function, p, model, most):
     values = [function((Fraction(p[0], p[2]) + u, Fraction(p[1], p[2]) + v, 1)) for u in (-within, within) for v in (-within, within)]
     return to_bits(store(min(values) - slack)) + ":" + to_bits(store(max(values) + slack))
 
-def read_triangles(draw):
+def read_triangles(draw, origin):
     """B1, V2: (triangle, index) of those that are drawn."""
     vertices = [[from_bits(text) for text in vertex] for vertex in draw["vertices"]["bits"]]
     for vertex, decimals in zip(vertices, draw["vertices"]["decimal"]):
@@ -197,16 +212,17 @@ def read_triangles(draw):
         if all(math.isfinite(n) for k in corners for n in vertices[k] + [u for array in arrays for u in array[k]]):
             values = [[[Fraction(array[k][c]) for k in corners] for c in range(len(array[0]))] for array in arrays]
             index = draw["identifiers"][position] if "identifiers" in draw else position + draw["first_index"]
-            drawn.append((Triangle([vertices[k] for k in corners], values, draw), index))
+            drawn.append((Triangle([vertices[k] for k in corners], values, draw, origin), index))
     return drawn
 
 def fragments(drawn, state, bits, p):
-    """M2 at one sample: (depth, index, position, triangle) of each triangle that counts, and how many are open."""
+    """M2 at one sample: (depth, index, position, triangle, front) of each triangle that counts, and how many are open."""
     found, opened, x, y = [], 0, p[0] // 16, p[1] // 16
     left, top, right, bottom = state.get("scissor", (x, y, x + 1, y + 1))
     for position, (triangle, index) in enumerate(drawn if left <= x < right and top <= y < bottom else []):
         if state["conservative"] != "none":
-            facing = sign(triangle.d) if triangle.meets_square(x, y, state["conservative"] == "inner") else 0
+            back = -1 if state["front_face"] == "clockwise" else 1  # as which M4b counts D = 0
+            facing = (sign(triangle.d) or back) if triangle.meets_square(x, y, state["conservative"]) else 0
         elif bits:
             answer = model_answer(triangle, bits, p)
             opened, facing = opened + (answer is None), sign(triangle.d) if answer else 0
@@ -216,15 +232,19 @@ def fragments(drawn, state, bits, p):
         if facing and state["cull"] != ("front" if front else "back"):
             real = triangle.depth(p) if state["conservative"] == "none" and not bits else Fraction(0)
             if state["depth_mode"] != "clip" or 0 <= real <= 1:  # I5
-                found.append((store(min(max(real, 0), 1) if state["depth_mode"] == "clamp" else real), index, position, triangle))
+                real += triangle.bias() if "depth_bias" in state and state["conservative"] == "none" else 0
+                found.append((store(min(max(real, 0), 1) if state["depth_mode"] == "clamp" else real), index, position, triangle, front))
     return found, opened
 
-def visible(found, depth_write, kept, greater):
-    """V1, M5: the fragment that a draw leaves at a sample, or None. `kept` is the depth before, None if anything beats it."""
-    order = -1 if greater else 1
-    passing = [f for f in found if kept is None or order * f[0] < order * kept]
-    by_index = max(passing, key=lambda f: f[1:3], default=None)
-    return min(passing, key=lambda f: (order * f[0], f[1], f[2]), default=None) if depth_write else by_index
+def beating(found, kept, test):
+    """V1, V5: those that beat a depth; None is beaten by any."""
+    order = -1 if test.startswith("greater") else 1
+    return [f for f in found if kept is None or order * f[0] < order * kept or (test.endswith("equal") and f[0] == kept)]
+
+def nearness(test):
+    """V1, V4, V5: by what fragments are ordered."""
+    order, later = -1 if test.startswith("greater") else 1, -1 if test.endswith("equal") else 1
+    return lambda f: (order * f[0], *(later * n for n in (*f[5:], *f[1:3])))
 
 def values_of(triangle, place, model, wanted):
     """Depth under a model, barycentrics, attributes, as far as they are wanted."""
@@ -237,45 +257,56 @@ def values_of(triangle, place, model, wanted):
     return depth, weights, [[one(u, k) for u in values] for k, values in zip(triangle.kinds, triangle.attributes if "attributes" in wanted else ())]
 
 def render(test, model):
-    """Yields for each frame, of each sample in order: count, open, index, depth, barycentrics, attributes."""
+    """Yields for each frame, of each layer and sample in order: count, open, index, depth, barycentrics, attributes, winding."""
     target, bits, previous = test["target"], (model or {}).get("bits"), None
-    greater, wide, number = target["depth_test"] == "greater", target["width"], target["samples"]
+    compare, wide, number, layers = target["depth_test"], target["width"], target["samples"], target.get("layers", 1)
+    (ox, oy), places = target.get("origin", (0, 0)), target.get("sample_locations", LOCATIONS[number])
     x0, y0, x1, y1 = test.get("window", (0, 0, wide, target["height"]))
     nothing = "ff800000:7f800000" if model else "00000000"  # under a model an empty sample's values are open
     for frame in test["frames"]:
         initial = frame.get("initial_depth")
         initial = previous if initial == "previous" else initial and [from_bits(text) for text in unroll(initial)]
-        draws, out = [(draw["state"], read_triangles(draw)) for draw in frame["draws"]], []
+        draws = [(draw["state"], read_triangles(draw, (ox, oy))) for draw in frame["draws"]]
+        conservative, out = any(state["conservative"] != "none" for state, _ in draws), [[] for _ in range(layers)]
         for y, x, s in ((y, x, s) for y in range(y0, y1) for x in range(x0, x1) for s in range(number)):
-            samples = [(16 * x + u, 16 * y + v, 16) for u, v in LOCATIONS[number]]
-            kept, count, opened, winner = initial[(y * wide + x) * number + s] if initial else None, 0, 0, None
-            for state, drawn in draws:
+            samples = [(16 * (ox + x) + u, 16 * (oy + y) + v, 16) for u, v in places]
+            first = kept = initial[(y * wide + x) * number + s] if initial else None
+            opened, winner, all_found = 0, None, []
+            for n, (state, drawn) in enumerate(draws):
                 found, undecided = fragments(drawn, state, bits, samples[s])
-                count, opened = count + len(found), opened + undecided
-                best = visible(found, state["depth_write"], kept, greater)
-                if best:
-                    winner, kept = best, best[0] if state["depth_write"] else kept
-            if model and (count != 1 or opened):
+                opened, all_found = opened + undecided, all_found + [(*f, n) for f in found]
+                passing = beating(found, kept, compare)
+                if passing:  # M5
+                    winner = min(passing, key=nearness(compare)) if state["depth_write"] else max(passing, key=lambda f: f[1:3])
+                    kept = winner[0] if state["depth_write"] else kept
+            if conservative:
+                winner = min(all_found, key=lambda f: f[1], default=None)  # M4c
+            if model and (len(all_found) != 1 or opened):
                 winner = None
-            depth = to_bits((-math.inf if greater else math.inf) if kept is None else kept)
-            if winner:
-                place = winner[3].place(samples, s, target["attribute_location"] == "centroid")
-                modelled, weights, attributes = values_of(winner[3], place, model, frame["expected"])
-            out.append((count, opened, winner[1], modelled or depth, weights, attributes) if winner else
-                       (count, opened, EMPTY, nothing if model else depth, [nothing] * 3, None))
-        previous = [from_bits(sample[3]) for sample in out] if not model else None
+            ordered = sorted(beating(all_found, first, compare), key=nearness(compare)) if layers > 1 else [winner]
+            for layer in range(layers):
+                seen = ordered[layer] if layer < len(ordered) else None
+                depth = kept if layers == 1 else seen[0] if seen else first
+                depth = to_bits((-math.inf if compare.startswith("greater") else math.inf) if depth is None else depth)
+                values = (nothing if model else depth, [nothing] * 3, None)
+                if seen:
+                    place = samples[s] if conservative else seen[3].place(samples, s, target["attribute_location"] == "centroid")
+                    modelled, weights, attributes = values_of(seen[3], place, model, frame["expected"])
+                    values = (modelled or depth, weights, attributes)
+                out[layer].append((len(all_found), opened, seen[1] if seen else EMPTY, *values, sum(1 if f[4] else -1 for f in all_found)))
+        previous = [from_bits(sample[3]) for sample in out[0]] if not model else None
         yield out, nothing
 
 def differences(test, model):
     for number, (frame, (out, nothing)) in enumerate(zip(test["frames"], render(test, model))):
-        expected = frame["expected"]
-        planes = [(name, expected.get(name, [len(out), 0] if name == "open" else None), [sample[i] for sample in out])
-                  for i, name in enumerate(("count", "open", "index", "depth"))]
-        planes += [(f"b{k}", runs, [sample[4][k] for sample in out]) for k, runs in enumerate(expected.get("barycentrics", []))]
-        planes += [(f"attribute {k}, component {c}", runs, [sample[5][k][c] if sample[5] else nothing for sample in out])
+        expected, layered = frame["expected"], [sample for layer in out for sample in layer]
+        planes = [(name, expected.get(name, [len(out[0]), 0] if name == "open" and "count" in expected else None), [sample[i] for sample in samples])
+                  for i, name, samples in ((0, "count", out[0]), (1, "open", out[0]), (2, "index", layered), (3, "depth", layered), (6, "winding", out[0]))]
+        planes += [(f"b{k}", runs, [sample[4][k] for sample in layered]) for k, runs in enumerate(expected.get("barycentrics", []))]
+        planes += [(f"attribute {k}, component {c}", runs, [sample[5][k][c] if sample[5] else nothing for sample in layered])
                    for k, array in enumerate(expected.get("attributes", [])) for c, runs in enumerate(array)]
         for name, runs, here in planes:
-            there = here if runs is None or (name == "open" and "count" not in expected) else unroll(runs)
+            there = here if runs is None else unroll(runs)
             if there != here:
                 at = next((i for i, (a, b) in enumerate(zip(there, here)) if a != b), 0)
                 yield f"frame {number}, {name} of sample {at}: {there[at]} in the file, {here[at]} here ({len(there)}, {len(here)} samples)"

@@ -147,6 +147,14 @@ std::vector<Subject> all_subjects() {
        {"front-and-back", "scissor", "several-draws", "identifiers", "culling-box", "tiles", "frames", "bad-input",
         "outputs", "equality-scene"},
        64});
+  add({"modes",
+       "origins, own sample places, layers, LEQUAL and GEQUAL, bias, winding, overlap and touched, index of "
+       "conservative frames",
+       Model::exact,
+       kAll,
+       {"modes"},
+       {"equality-modes", "tiles-of-a-picture", "layers-peel", "polygon-winding"},
+       48});
   Subject sequences{"sequences",
                     "frames one after the other, into the same buffers",
                     Model::exact,
@@ -157,9 +165,15 @@ std::vector<Subject> all_subjects() {
   sequences.sequences = true;
   add(sequences);
   const std::pair<const char*, std::vector<std::string>> modes[] = {
-      {"ties", {"C3 ", "C5 "}},   {"cracks", {"C3 "}},          {"depth", {"I5 ", "V1 greater"}},
-      {"attributes", {"I2 "}},    {"samples", {"S4 "}},         {"conservative", {"M4 "}},
-      {"grid", {"G1 rounding "}}, {"sequences", {"V1 greater"}}};
+      {"ties", {"C3 ", "C5 "}},
+      {"cracks", {"C3 "}},
+      {"depth", {"I5 ", "V1 greater"}},
+      {"attributes", {"I2 "}},
+      {"samples", {"S4 "}},
+      {"conservative", {"M4 "}},
+      {"grid", {"G1 rounding "}},
+      {"modes", {"S6 ", "S7 ", "V4 ", "V5 ", "I8 ", "M9 ", "M4c "}},
+      {"sequences", {"V1 greater"}}};
   for (const auto& [name, kinds] : modes)
     std::find_if(all.begin(), all.end(), [&name = name](const Subject& s) { return s.name == name; })->modes = kinds;
   return all;
@@ -174,8 +188,9 @@ std::size_t triangles_of(const corpus::Scene& scene) {
 
 // Are all fields of a draw as they are by default, but for those that version 1 of the files has?
 bool of_version_1(const corpus::SceneDraw& draw) {
-  static constexpr std::array<std::string_view, 9> kFields{
-      "fill-rule", "front-face", "cull", "depth-mode", "depth-write", "conservative", "scissor", "grid", "culling-box"};
+  static constexpr std::array<std::string_view, 10> kFields{"fill-rule",   "front-face",   "cull",    "depth-mode",
+                                                            "depth-write", "conservative", "scissor", "grid",
+                                                            "culling-box", "depth-bias"};
   const DrawState none;
   bool plain = draw.points.empty() && draw.lines.empty();
   corpus::for_each_draw_field([&](const auto& field) {
@@ -215,11 +230,25 @@ bool attributes_are_finite(const corpus::Scene& scene) {
   return true;
 }
 
+// Has it nothing of what the subject `modes` is about?
+bool is_plain(const corpus::Scene& scene) {
+  if (scene.origin != Origin{} || !scene.sample_locations.empty() || scene.layers != 1 ||
+      !(scene.more == corpus::MoreOutputs{}) || scene.depth_test > DepthTest::greater)
+    return false;
+  return std::all_of(scene.draws.begin(), scene.draws.end(), [](const corpus::SceneDraw& draw) {
+    return draw.conservative <= Conservative::inner && !draw.depth_bias;
+  });
+}
+
 // As the subject has scenes; false if it has none such.
 bool fit(const Subject& subject, corpus::Scene& scene, std::size_t most) {
   if (!write_out(scene) || triangles_of(scene) == 0 || triangles_of(scene) > most) return false;
-  const bool samples = subject.name == "samples";
-  if (!samples && scene.samples != 1) return false;
+  const bool samples = subject.name == "samples", modes = subject.name == "modes";
+  if (modes) {
+    scene.more.numbers = false;  // files have outputs of samples
+    return true;
+  }
+  if (!is_plain(scene) || (!samples && scene.samples != 1)) return false;
   for (corpus::SceneDraw& draw : scene.draws) {
     if ((draw.conservative != Conservative::none) && subject.name != "conservative") return false;
     if (draw.grid && subject.keeps_state && subject.name != "grid") return false;
@@ -264,6 +293,13 @@ void add_modes(std::set<std::string>& rules, const corpus::Scene& scene) {
         "M1 " +
         std::string(corpus::kAttributeLocationNames[static_cast<std::size_t>(scene.attribute_location)].second));
   }
+  if (scene.depth_test == DepthTest::less_equal) rules.insert("V5 less-equal");
+  if (scene.depth_test == DepthTest::greater_equal) rules.insert("V5 greater-equal");
+  if (scene.origin != Origin{}) rules.insert("S6 origin");
+  if (!scene.sample_locations.empty()) rules.insert("S7 places");
+  if (scene.layers > 1) rules.insert("V4 layers");
+  if (scene.more.winding) rules.insert("M9 winding");
+  if (scene.more.conservative_index) rules.insert("M4c index");
   if (scene.depth_test == DepthTest::greater) rules.insert("V1 greater");
   if (!scene.initial_depth.empty()) rules.insert("V1 initial depth");
   if (scene.draws.size() > 1) rules.insert("V3");
@@ -278,6 +314,7 @@ void add_modes(std::set<std::string>& rules, const corpus::Scene& scene) {
     if (draw.depth_mode != DepthMode::none) rules.insert("I5 " + word(draw.depth_mode));
     if (!draw.depth_write) rules.insert("M5");
     if (draw.conservative != Conservative::none) rules.insert("M4 " + word(draw.conservative));
+    if (draw.depth_bias) rules.insert("I8 bias");
     if (draw.scissor) rules.insert("M3");
     if (draw.culling_box) rules.insert("M6");
     if (draw.grid)
@@ -292,7 +329,8 @@ corpus::Outputs outputs_for(const Subject& subject, const corpus::Scene& scene) 
   corpus::Outputs outputs = subject.outputs;
   if (scene.attributes.empty()) outputs.attributes = false;
   for (const corpus::SceneDraw& draw : scene.draws)
-    if (draw.conservative != Conservative::none) outputs = kCount;
+    if (draw.conservative != Conservative::none) outputs = {true, scene.more.conservative_index, false, false, false};
+  outputs.winding = scene.more.winding, outputs.numbers = false;
   return outputs;
 }
 

@@ -17,6 +17,8 @@ struct Reason {
 constexpr Reason kNotShown[] = {
     {"stride-ignored", "files hold values in order, and no strides"},
     {"stride-zero", "files hold values in order, and no strides"},
+    {"covered-is-visible", "files have outputs of samples; these are numbers of triangles"},
+    {"visible-of-all-layers", "files have outputs of samples; these are numbers of triangles"},
 };
 
 Status second_oracle(const Target& target, std::span<const Draw> draws) {

@@ -66,11 +66,11 @@ struct Edges {
   }
 };
 
-// R11: sum above_i E_i / sum below_i E_i within 2^-(bits + 1) pixels of a pixel's centre, and the roundings of `most`.
+// R11: sum above_i E_i / sum below_i E_i within 3 2^-(bits + 1) pixels of a pixel's centre, and the roundings of `most`.
 // False where there is a pole.
 bool granted(const Edges& edges, const std::array<Rational, 3>& above, const std::array<Rational, 3>& below, int x,
              int y, int bits, const Rational& most, float& low, float& high) {
-  const Rational within(1, 2u << static_cast<unsigned>(bits)), half(1, 2);
+  const Rational within(3, 2u << static_cast<unsigned>(bits)), half(1, 2);
   Rational least, largest;
   int sign = 0;
   for (int corner = 0; corner < 4; ++corner) {
@@ -163,6 +163,7 @@ Expected exactly(const corpus::Frame& frame) {
   Expected expected;
   expected.count = image.count, expected.index = image.index, expected.depth = image.depth;
   expected.barycentrics = image.barycentrics, expected.attributes = image.attributes;
+  expected.winding = image.winding;
   return expected;
 }
 
@@ -203,13 +204,13 @@ bool within(float value, float low, float high, bool interval) {
 }
 
 // Where it differs first, or the number of samples.
-std::size_t difference(const Test& test, const VectorFrame& frame, const corpus::Image& image,
-                       const std::vector<std::size_t>& samples, Effects& effects) {
+std::size_t difference(const Test& test, const VectorFrame& frame, const corpus::Image& image, Effects& effects) {
+  const std::vector<std::size_t> samples = test.samples(), layered = test.samples(true);
   const Expected& e = frame.expected;
   std::size_t first = std::numeric_limits<std::size_t>::max();
   const auto check = [&](const std::vector<float>& low, const std::vector<float>& high, const std::vector<float>& got,
                          std::size_t elements, bool& seen) {
-    for (const std::size_t s : samples) {
+    for (const std::size_t s : layered) {
       for (std::size_t i = s * elements; i < (s + 1) * elements; ++i) {
         if (within(got[i], low[i], high.empty() ? low[i] : high[i], !high.empty())) continue;
         seen = true, first = std::min(first, s);
@@ -223,8 +224,10 @@ std::size_t difference(const Test& test, const VectorFrame& frame, const corpus:
       effects.fewer |= fewer, effects.more |= more;
       if (fewer || more) first = std::min(first, s);
     }
-    if (!e.index.empty() && image.index[s] != e.index[s]) effects.index = true, first = std::min(first, s);
+    if (!e.winding.empty() && image.winding[s] != e.winding[s]) effects.winding = true, first = std::min(first, s);
   }
+  for (const std::size_t s : layered)
+    if (!e.index.empty() && image.index[s] != e.index[s]) effects.index = true, first = std::min(first, s);
   if (test.outputs.depth) check(e.depth, e.depth_high, image.depth, 1, effects.depth);
   if (test.outputs.barycentrics)
     check(e.barycentrics, e.barycentrics_high, image.barycentrics, 3, effects.barycentrics);
@@ -251,7 +254,6 @@ void draw_before(Render render, bool otherwise) {
 
 // The first sample that differs, over all frames; nothing if none does.
 std::optional<std::size_t> first_difference(const Test& test, Render render, bool otherwise, Effects& effects) {
-  const std::vector<std::size_t> samples = test.samples();
   std::optional<std::size_t> first;
   draw_before(render, otherwise);
   corpus::Image before;
@@ -268,7 +270,7 @@ std::optional<std::size_t> first_difference(const Test& test, Render render, boo
       effects.no_image = true;
       return 0;
     }
-    const std::size_t at = difference(test, vector, frame.image(), samples, effects);
+    const std::size_t at = difference(test, vector, frame.image(), effects);
     if (!first && at != std::numeric_limits<std::size_t>::max()) first = at;
     before = frame.image();
   }
@@ -292,17 +294,20 @@ std::array<int, 2> middle(const Test& test) {
 
 }  // namespace
 
-std::vector<std::size_t> Test::samples() const {
+std::vector<std::size_t> Test::samples(bool layered) const {
   const corpus::Scene& scene = frames.front().scene;
   const auto [x0, y0, x1, y1] = window.value_or(std::array<int, 4>{0, 0, scene.width, scene.height});
   std::vector<std::size_t> all;
-  for (int y = y0; y < y1; ++y)
-    for (int x = x0; x < x1; ++x)
-      for (int n = 0; n < scene.samples; ++n)
-        all.push_back(
-            (static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) + static_cast<std::size_t>(x)) *
-                static_cast<std::size_t>(scene.samples) +
-            static_cast<std::size_t>(n));
+  const auto total = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height) *
+                     static_cast<std::size_t>(scene.samples);
+  for (int layer = 0; layer < (layered ? scene.layers : 1); ++layer)
+    for (int y = y0; y < y1; ++y)
+      for (int x = x0; x < x1; ++x)
+        for (int n = 0; n < scene.samples; ++n)
+          all.push_back(
+              (static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) + static_cast<std::size_t>(x)) *
+                  static_cast<std::size_t>(scene.samples) +
+              static_cast<std::size_t>(n) + static_cast<std::size_t>(layer) * total);
   return all;
 }
 
@@ -351,7 +356,7 @@ std::optional<Effects> wrong_by(const Test& test, Render render) {
 
 void Effects::take(const Effects& other) {
   no_image |= other.no_image, more |= other.more, fewer |= other.fewer, index |= other.index, depth |= other.depth;
-  barycentrics |= other.barycentrics, attributes |= other.attributes;
+  barycentrics |= other.barycentrics, attributes |= other.attributes, winding |= other.winding;
 }
 
 std::string Effects::text() const {
@@ -362,7 +367,7 @@ std::string Effects::text() const {
   add(no_image, "no image");
   add(more, "samples covered that are not, or too often"), add(fewer, "samples not covered, or too seldom");
   add(index, "another triangle visible"), add(depth, "wrong depths"), add(barycentrics, "wrong barycentrics");
-  add(attributes, "wrong attributes");
+  add(attributes, "wrong attributes"), add(winding, "wrong winding");
   return result;
 }
 

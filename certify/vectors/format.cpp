@@ -83,28 +83,29 @@ std::vector<Plane> planes_of(const Test& test, const VectorFrame& frame, bool js
   const std::vector<std::size_t> samples = test.samples();
   const Expected& e = frame.expected;
   std::vector<Plane> planes;
-  const auto whole = [&](const char* name, const std::vector<std::uint32_t>& values) {
+  const std::vector<std::size_t> layered = test.samples(true);
+  const auto whole = [&](const char* name, const auto& values, const std::vector<std::size_t>& at) {
     Plane& plane = planes.emplace_back();
     plane.name = name;
-    for (const std::size_t s : samples) plane.values.push_back(std::to_string(values[s]));
+    for (const std::size_t s : at) plane.values.push_back(std::to_string(values[s]));
   };
   const auto real = [&](const std::string& name, const std::vector<float>& values, const std::vector<float>& ends,
                         std::size_t elements, std::size_t element) {
     Plane& plane = planes.emplace_back();
     plane.name = name;
-    for (const std::size_t s : samples) {
+    for (const std::size_t s : layered) {
       const std::size_t at = s * elements + element;
       const std::string value = hex(high && !ends.empty() ? ends[at] : values[at]);
       plane.values.push_back(!json ? value : ends.empty() ? quoted(value) : quoted(value + ":" + hex(ends[at])));
     }
   };
-  if (test.outputs.count && !high) whole("count", e.count);
+  if (test.outputs.count && !high) whole("count", e.count, samples);
   if (test.outputs.count && high) {
     std::vector<std::uint32_t> most = e.count;
     for (std::size_t s = 0; s < e.open.size(); ++s) most[s] += e.open[s];
-    whole("count", most);
+    whole("count", most, samples);
   }
-  if (!e.index.empty()) whole("index", e.index);
+  if (!e.index.empty()) whole("index", e.index, layered);
   if (test.outputs.depth) real("depth", e.depth, e.depth_high, 1, 0);
   for (std::size_t i = 0; test.outputs.barycentrics && i < 3; ++i)
     real("b" + std::to_string(i), e.barycentrics, e.barycentrics_high, 3, i);
@@ -115,6 +116,7 @@ std::vector<Plane> planes_of(const Test& test, const VectorFrame& frame, bool js
       real(fmt::format("a{}.{}", k, c), e.attributes[k], e.attributes_high.empty() ? none : e.attributes_high[k],
            attribute.components, c);
   }
+  if (!e.winding.empty()) whole("winding", e.winding, samples);
   return planes;
 }
 
@@ -123,9 +125,9 @@ std::vector<Plane> planes_of(const Test& test, const VectorFrame& frame, bool js
 template <typename Write>
 void for_each_field(const DrawState& state, const Write& write) {
   corpus::for_each_draw_field([&](const auto& field) {
-    static constexpr std::array<std::string_view, 9> kFields{"fill-rule",  "front-face",  "cull",
-                                                             "depth-mode", "depth-write", "conservative",
-                                                             "scissor",    "grid",        "culling-box"};
+    static constexpr std::array<std::string_view, 10> kFields{"fill-rule",   "front-face",   "cull",    "depth-mode",
+                                                              "depth-write", "conservative", "scissor", "grid",
+                                                              "culling-box", "depth-bias"};
     if (std::find(kFields.begin(), kFields.end(), field.name) != kFields.end()) write(field.name, state.*field.member);
   });
 }
@@ -261,6 +263,7 @@ std::string expected_json(const Test& test, const VectorFrame& frame) {
     }
     members.push_back(text + "]");
   }
+  if (!frame.expected.winding.empty()) members.push_back("\"winding\": " + plane("winding"));
   return "{" + joined(members, ",\n                  ", std::identity()) + "}";
 }
 
@@ -297,10 +300,24 @@ std::string models_json(const File& file) {
     const int bits = kModelBits[static_cast<std::size_t>(model)];
     return fmt::format(
         "\"{}\": {{\"sections\": \"11 of docs/semantics.md\", \"bits\": {}, \"rounding\": \"nearest_even\", "
-        "\"slivers\": \"open\", \"within\": [1, {}], "
+        "\"slivers\": \"open\", \"within\": [3, {}], "
         "\"roundings\": [{}, 16777216]}}",
         kModelNames[static_cast<std::size_t>(model)], bits, 2 << bits, kGrantedRoundings);
   });
+}
+
+// What few targets have: origin, own places of the samples, layers.
+std::string further_json(const corpus::Scene& scene) {
+  std::string text;
+  if (scene.origin != Origin{}) text += fmt::format(", \"origin\": [{}, {}]", scene.origin.x, scene.origin.y);
+  if (!scene.sample_locations.empty()) {
+    text += ", \"sample_locations\": [" +
+            joined(scene.sample_locations, ", ",
+                   [](const SampleLocation& at) { return fmt::format("[{}, {}]", at.x, at.y); }) +
+            "]";
+  }
+  if (scene.layers > 1) text += fmt::format(", \"layers\": {}", scene.layers);
+  return text;
 }
 
 }  // namespace
@@ -314,10 +331,10 @@ std::string json_of(const Test& test) {
           joined(test.models, ", ", [](Model m) { return quoted(kModelNames[static_cast<std::size_t>(m)]); }) + "],\n";
   text += fmt::format(
       "   \"target\": {{\"width\": {}, \"height\": {}, \"samples\": {}, \"depth_test\": \"{}\", "
-      "\"attribute_location\": \"{}\"}},\n",
+      "\"attribute_location\": \"{}\"{}}},\n",
       scene.width, scene.height, scene.samples,
-      corpus::kDepthTestNames[static_cast<std::size_t>(scene.depth_test)].second,
-      corpus::kAttributeLocationNames[static_cast<std::size_t>(scene.attribute_location)].second);
+      underlined(corpus::kDepthTestNames[static_cast<std::size_t>(scene.depth_test)].second),
+      corpus::kAttributeLocationNames[static_cast<std::size_t>(scene.attribute_location)].second, further_json(scene));
   if (test.window)
     text += fmt::format("   \"window\": [{}, {}, {}, {}],\n", (*test.window)[0], (*test.window)[1], (*test.window)[2],
                         (*test.window)[3]);
@@ -372,6 +389,8 @@ std::string schema_of(const File& file) {
     members +=
         ",\n      \"attributes\": {\"type\": \"array\", \"items\": {\"type\": \"array\", \"minItems\": 1, "
         "\"maxItems\": 4, \"items\": {\"$ref\": \"#/$defs/reals\"}}}";
+  if (smoke || file.subject.name == "modes")
+    members += ",\n      \"winding\": {\"type\": \"array\", \"items\": {\"type\": \"integer\"}}";
   std::string text =
       R"({"$schema": "https://json-schema.org/draft/2020-12/schema", "title": "Surefill test vectors: @subject", "type": "object",
  "required": ["format", "version", "subject", "title", "schema", "models", "notes", "number_of_tests", "tests"], "additionalProperties": false,
@@ -398,7 +417,8 @@ std::string schema_of(const File& file) {
     "scissor": {"$ref": "#/$defs/rectangle"},
     "grid": {"description": "bits, offset of x and of y in 2^-(bits + 4) pixels, rounding", "type": "array", "minItems": 4, "maxItems": 4,
      "items": {"anyOf": [{"type": "integer", "minimum": 0, "maximum": 15}, {"enum": [@roundings]}]}},
-    "culling_box": {"type": "array", "minItems": 32, "maxItems": 32, "items": {"$ref": "#/$defs/bits"}}}},
+    "culling_box": {"type": "array", "minItems": 32, "maxItems": 32, "items": {"$ref": "#/$defs/bits"}},
+    "depth_bias": {"description": "constant, slope", "type": "array", "minItems": 2, "maxItems": 2, "items": {"$ref": "#/$defs/bits"}}}},
   "draw": {"type": "object", "required": ["state", "vertices", "triangles"], "additionalProperties": false, "properties": {
    "state": {"$ref": "#/$defs/state"},
    "vertices": {"type": "object", "required": ["bits", "decimal"], "additionalProperties": false, "properties": {
@@ -420,7 +440,10 @@ std::string schema_of(const File& file) {
    "models": {"type": "array", "minItems": 1, "items": {"enum": [@models]}},
    "target": {"type": "object", "required": ["width", "height", "samples", "depth_test", "attribute_location"], "additionalProperties": false, "properties": {
     "width": {"type": "integer", "minimum": 1, "maximum": 16384}, "height": {"type": "integer", "minimum": 1, "maximum": 16384},
-    "samples": {"enum": [1, 2, 4, 8, 16]}, "depth_test": {"enum": ["less", "greater"]}, "attribute_location": {"enum": ["centre", "centroid"]}}},
+    "samples": {"enum": [1, 2, 4, 8, 16]}, "depth_test": {"enum": [@depth_tests]}, "attribute_location": {"enum": ["centre", "centroid"]},
+    "origin": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer"}},
+    "sample_locations": {"type": "array", "items": {"type": "array", "minItems": 2, "maxItems": 2, "items": {"type": "integer", "minimum": 0, "maximum": 15}}},
+    "layers": {"type": "integer", "minimum": 2, "maximum": 16}}},
    "window": {"$ref": "#/$defs/rectangle"},
    "frames": {"type": "array", "minItems": 1, "items": {"$ref": "#/$defs/frame"}}}}}}
 )";
@@ -429,6 +452,7 @@ std::string schema_of(const File& file) {
       text.replace(at, mark.size(), value);
   };
   put("@subject", file.subject.name), put("@required", required), put("@models", models), put("@members", members);
+  put("@depth_tests", words(corpus::kDepthTestNames));
   put("@fill_rules", words(corpus::kFillRuleNames)), put("@front_faces", words(corpus::kFrontFaceNames)),
       put("@culls", words(corpus::kCullNames));
   put("@depth_modes", words(corpus::kDepthModeNames)), put("@conservatives", words(corpus::kConservativeNames));
@@ -441,10 +465,13 @@ std::string text_of(const Test& test, bool with_expectations) {
   int models = 0;
   for (const Model model : test.models) models |= 1 << static_cast<int>(model);
   const auto [x0, y0, x1, y1] = test.window.value_or(std::array<int, 4>{0, 0, scene.width, scene.height});
+  std::string further = fmt::format("{} {} {}", scene.origin.x, scene.origin.y, scene.sample_locations.size());
+  for (const SampleLocation& at : scene.sample_locations) further += fmt::format(" {} {}", at.x, at.y);
+  const int outputs = outputs_number(test.outputs) + (test.frames.front().expected.winding.empty() ? 0 : 32);
   std::string text =
-      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {}", models, scene.width, scene.height, scene.samples,
-                  static_cast<int>(scene.depth_test), static_cast<int>(scene.attribute_location), x0, y0, x1, y1,
-                  outputs_number(test.outputs), test.frames.size());
+      fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {}", models, scene.width, scene.height, scene.samples,
+                  static_cast<int>(scene.depth_test), static_cast<int>(scene.attribute_location), further, scene.layers,
+                  x0, y0, x1, y1, outputs, test.frames.size());
   for (const VectorFrame& frame : test.frames) {
     if (frame.previous) {
       text += " 2";

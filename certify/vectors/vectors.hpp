@@ -26,8 +26,8 @@ enum class Model : std::uint8_t { exact, grid4, grid8 };
 inline constexpr std::array<std::string_view, 3> kModelNames{"exact", "grid4", "grid8"};
 inline constexpr std::array<int, 3> kModelBits{0, 4, 8};
 
-// What a model grants to depth, barycentrics and attributes beside what they are within 2^-(bits + 1) pixels: so many
-// times 2^-24 of the largest |Z/W|, or value, among the vertices.
+// What a model grants to depth, barycentrics and attributes: what they are within half a step of the grid, as positions
+// are off by that, and a step more (R11), both ways; and so many times 2^-24 of the largest |Z/W|, or value, among the vertices.
 inline constexpr int kGrantedRoundings = 64;
 
 // What a sample is owed: a count from c to c + open, values from low to high.
@@ -37,6 +37,7 @@ struct Expected {
   std::vector<std::vector<float>> attributes;
   std::vector<float> depth_high, barycentrics_high;  // under a model of intervals; else empty
   std::vector<std::vector<float>> attributes_high;
+  std::vector<std::int32_t> winding;  // where the scene asks for it
 };
 
 struct VectorFrame {
@@ -56,14 +57,14 @@ struct Test {
   std::optional<std::array<int, 4>> window;  // x0, y0, x1, y1, where expectations are of a part of the target
   std::vector<VectorFrame> frames;
 
-  // Elements of a buffer that are expected, in order.
-  std::vector<std::size_t> samples() const;
+  // Elements of a buffer that are expected, in order: of one that has layers, layer by layer.
+  std::vector<std::size_t> samples(bool layered = false) const;
 };
 
 // How a fault is seen, over the tests that show it.
 struct Effects {
   bool no_image = false, more = false, fewer = false, index = false, depth = false, barycentrics = false,
-       attributes = false;
+       attributes = false, winding = false;
   void take(const Effects& other);
   std::string text() const;
 };

@@ -34,7 +34,7 @@ void unroll(const Json& runs, Values& low, Values& high) {
       first = last = bits_of(text.substr(0, 8));
       if (text.size() == 17) last = bits_of(text.substr(9));
     } else {
-      first = last = runs[i + 1];
+      first = last = static_cast<std::uint32_t>(runs[i + 1].get<std::int64_t>());
     }
     low.insert(low.end(), runs[i], first), high.insert(high.end(), runs[i], last);
   }
@@ -61,10 +61,11 @@ void planes_of(const Json& expected, std::vector<std::string>& names, std::vecto
     for (std::size_t k = 0; k < expected["attributes"].size(); ++k)
       for (std::size_t c = 0; c < expected["attributes"][k].size(); ++c)
         add(fmt::format("a{}.{}", k, c), expected["attributes"][k][c]);
+  if (expected.contains("winding")) add("winding", expected["winding"]);
 }
 
 bool is_whole(const std::string& plane) {
-  return plane == "count" || plane == "index";
+  return plane == "count" || plane == "index" || plane == "winding";
 }
 
 bool right(const std::string& plane, std::uint32_t value, std::uint32_t low, std::uint32_t high) {
@@ -75,6 +76,7 @@ bool right(const std::string& plane, std::uint32_t value, std::uint32_t low, std
 }
 
 std::string said(const std::string& plane, std::uint32_t value) {
+  if (plane == "winding") return std::to_string(static_cast<std::int32_t>(value));
   return is_whole(plane) ? std::to_string(value) : fmt::format("{:08x} ({:.9g})", value, std::bit_cast<float>(value));
 }
 
@@ -94,8 +96,9 @@ std::string fault_of(const Owed& owed, std::istringstream& words) {
         std::uint32_t value = 0;
         try {
           std::size_t used = 0;
-          const unsigned long long number = std::stoull(text, &used, is_whole(name) ? 10 : 16);
-          if (used != text.size() || number > 0xFFFFFFFFu) throw std::out_of_range(text);
+          const long long number = std::stoll(text, &used, is_whole(name) ? 10 : 16);
+          if (used != text.size() || number > 0xFFFFFFFFll || number < (name == "winding" ? -0x80000000ll : 0))
+            throw std::out_of_range(text);
           value = static_cast<std::uint32_t>(number);
         } catch (const std::logic_error&) {
           return where + ": not a number: " + text.substr(0, 40);
@@ -194,7 +197,7 @@ std::string lines_of_json(const std::string& text, const std::string& path) {
         for (std::size_t p = 0; p < planes.size(); ++p) {
           lines += fmt::format(" {}", planes[p].size());
           for (const std::uint32_t value : planes[p])
-            lines += is_whole(names[p]) ? fmt::format(" 1 {}", value) : fmt::format(" 1 {:08x}", value);
+            lines += is_whole(names[p]) ? " 1 " + said(names[p], value) : fmt::format(" 1 {:08x}", value);
         }
       }
       lines += '\n';

@@ -71,6 +71,10 @@ Draw read_draw(Words& words, Arrays& arrays) {
     draw.culling_box.emplace();
     for (Vertex& v : *draw.culling_box) v.x = words.real(), v.y = words.real(), v.z = words.real(), v.w = words.real();
   }
+  if (words.whole() != 0) {
+    draw.depth_bias.emplace();
+    draw.depth_bias->constant = words.real(), draw.depth_bias->slope = words.real();
+  }
   draw.first_index = words.whole();
   arrays.vertices.resize(words.whole());
   for (Vertex& v : arrays.vertices) v.x = words.real(), v.y = words.real(), v.z = words.real(), v.w = words.real();
@@ -94,6 +98,7 @@ Draw read_draw(Words& words, Arrays& arrays) {
 // A frame's buffers, which the next frame of the test is drawn into, too.
 struct Buffers {
   std::vector<std::uint32_t> count, index;
+  std::vector<std::int32_t> winding;
   std::vector<float> depth, barycentrics;
   std::vector<std::vector<float>> attributes;
 };
@@ -102,6 +107,7 @@ struct Buffers {
 struct Head {
   std::uint32_t id, words, models;
   Target target;
+  std::vector<SampleLocation> locations;
   std::array<int, 4> window;
   std::uint32_t outputs, frames;
 };
@@ -112,24 +118,30 @@ Head read_head(Words& words) {
   head.target.width = words.signed_whole(), head.target.height = words.signed_whole();
   head.target.samples = words.signed_whole(), head.target.depth_test = words.word<DepthTest>();
   head.target.attribute_location = words.word<AttributeLocation>();
+  head.target.origin.x = words.signed_whole(), head.target.origin.y = words.signed_whole();
+  head.locations.resize(words.whole());
+  for (SampleLocation& at : head.locations) at.x = words.signed_whole(), at.y = words.signed_whole();
+  head.target.layers = words.signed_whole();
   for (int& side : head.window) side = words.signed_whole();
   head.outputs = words.whole(), head.frames = words.whole();
   return head;
 }
 
-// Prints a plane of the window: runs of 1.
+// Prints a plane of the window: runs of 1. Of a buffer with layers, layer by layer.
 template <typename Values>
-void print(const Head& head, const Values& values, std::size_t elements, std::size_t element) {
+void print(const Head& head, const Values& values, int layers, std::size_t elements = 1, std::size_t element = 0) {
   const auto [x0, y0, x1, y1] = head.window;
-  std::cout << ' ' << (x1 - x0) * (y1 - y0) * head.target.samples;
-  for (int y = y0; y < y1; ++y) {
-    for (int s = (y * head.target.width + x0) * head.target.samples;
-         s < (y * head.target.width + x1) * head.target.samples; ++s) {
-      const auto value = values[static_cast<std::size_t>(s) * elements + element];
-      if constexpr (sizeof value == 4 && std::is_floating_point_v<std::decay_t<decltype(value)>>) {
-        std::cout << " 1 " << std::hex << std::bit_cast<std::uint32_t>(value) << std::dec;
-      } else {
-        std::cout << " 1 " << value;
+  const Target& t = head.target;
+  std::cout << ' ' << layers * (x1 - x0) * (y1 - y0) * t.samples;
+  for (int layer = 0; layer < layers; ++layer) {
+    for (int y = layer * t.height + y0; y < layer * t.height + y1; ++y) {
+      for (int s = (y * t.width + x0) * t.samples; s < (y * t.width + x1) * t.samples; ++s) {
+        const auto value = values[static_cast<std::size_t>(s) * elements + element];
+        if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>) {
+          std::cout << " 1 " << std::hex << std::bit_cast<std::uint32_t>(value) << std::dec;
+        } else {
+          std::cout << " 1 " << value;
+        }
       }
     }
   }
@@ -137,6 +149,7 @@ void print(const Head& head, const Values& values, std::size_t elements, std::si
 
 bool draw_frame(const Head& head, Words& words, Buffers& buffers) {
   Target target = head.target;
+  target.sample_locations = head.locations;
   const std::size_t total = sample_total(target);
   std::vector<float> initial;
   const std::uint32_t kind = words.whole();
@@ -160,14 +173,16 @@ bool draw_frame(const Head& head, Words& words, Buffers& buffers) {
     if ((head.outputs & output) == 0) return;
     own.resize(elements * total), asked = own;
   };
-  buffer(1, buffers.count, target.count, 1), buffer(2, buffers.index, target.index, 1);
-  buffer(4, buffers.depth, target.depth, 1), buffer(8, buffers.barycentrics, target.barycentrics, 3);
+  const auto layers = static_cast<std::size_t>(target.layers);
+  buffer(1, buffers.count, target.count, 1), buffer(2, buffers.index, target.index, layers);
+  buffer(4, buffers.depth, target.depth, layers), buffer(8, buffers.barycentrics, target.barycentrics, 3 * layers);
+  buffer(32, buffers.winding, target.winding, 1);
   std::vector<AttributeTarget> attributes;
   if ((head.outputs & 16) != 0 && !arrays.empty()) {
     attributes.resize(arrays[0].attributes.size()), buffers.attributes.resize(attributes.size());
     for (std::size_t k = 0; k < attributes.size(); ++k) {
       attributes[k].components = arrays[0].attributes[k].components;
-      buffer(16, buffers.attributes[k], attributes[k].values, attributes[k].components);
+      buffer(16, buffers.attributes[k], attributes[k].values, layers * attributes[k].components);
     }
     target.attributes = attributes;
   }
@@ -176,13 +191,15 @@ bool draw_frame(const Head& head, Words& words, Buffers& buffers) {
     std::cerr << "test " << head.id << ": " << status_text(status) << '\n';
     return false;
   }
-  if ((head.outputs & 1) != 0) print(head, buffers.count, 1, 0);
-  if ((head.outputs & 2) != 0) print(head, buffers.index, 1, 0);
-  if ((head.outputs & 4) != 0) print(head, buffers.depth, 1, 0);
-  for (std::size_t i = 0; (head.outputs & 8) != 0 && i < 3; ++i) print(head, buffers.barycentrics, 3, i);
-  for (std::size_t k = 0; k < attributes.size(); ++k)
-    for (std::size_t c = 0; c < attributes[k].components; ++c)
-      print(head, buffers.attributes[k], attributes[k].components, c);
+  const int k = target.layers;
+  if ((head.outputs & 1) != 0) print(head, buffers.count, 1);
+  if ((head.outputs & 2) != 0) print(head, buffers.index, k);
+  if ((head.outputs & 4) != 0) print(head, buffers.depth, k);
+  for (std::size_t i = 0; (head.outputs & 8) != 0 && i < 3; ++i) print(head, buffers.barycentrics, k, 3, i);
+  for (std::size_t a = 0; a < attributes.size(); ++a)
+    for (std::size_t c = 0; c < attributes[a].components; ++c)
+      print(head, buffers.attributes[a], k, attributes[a].components, c);
+  if ((head.outputs & 32) != 0) print(head, buffers.winding, 1);
   return true;
 }
 

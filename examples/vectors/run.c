@@ -18,13 +18,13 @@ int main(int argc, char** argv) {
   static char failed[65536];
   unsigned id, tests = 0, wrong = 0;
   for (; fscanf(file, "%u", &id) == 1; ++tests) {
-    unsigned head[13], expected[2]; /* words, models, width, ..., outputs, frames, as docs/vectors.md has them */
-    for (int i = 0; i < 13; ++i) head[i] = next("%u");
-    const int width = head[2], height = head[3], x0 = head[7], y0 = head[8], x1 = head[9], y1 = head[10];
+    unsigned head[17], expected[2]; /* words, models, width, ..., outputs, frames, as docs/vectors.md has them */
+    for (int i = 0; i < 17; ++i) head[i] = next("%u");
+    const int width = head[2], height = head[3], x0 = head[11], y0 = head[12], x1 = head[13], y1 = head[14];
     unsigned* counts = calloc((size_t)width * height, sizeof *counts);
     next("%u"); /* no initial depth */
     for (unsigned draws = next("%u"); draws > 0; --draws) {
-      for (int i = 0; i < 10; ++i) next("%u"); /* the state is the default; first index */
+      for (int i = 0; i < 11; ++i) next("%u"); /* the state is the default; first index */
       const unsigned n = next("%u");
       float* vertices = malloc(16 * n + 1);
       for (unsigned i = 0, bits; i < 4 * n; ++i) bits = next("%x"), memcpy(vertices + i, &bits, 4);

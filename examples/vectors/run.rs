@@ -25,12 +25,12 @@ fn main() {
     let (mut failed, mut tests) = (HashSet::new(), 0);
     for line in read(1).lines() {
         let mut words = Words(line.split_whitespace());
-        let head: Vec<usize> = (0..14).map(|_| words.whole()).collect(); // id, words, models, width, height, samples, ..., frames
-        let pixels: Vec<_> = (head[9]..head[11]).flat_map(|y| (head[8]..head[10]).map(move |x| (x as i64, y as i64))).collect();
+        let head: Vec<usize> = (0..18).map(|_| words.whole()).collect(); // id, words, models, width, height, samples, ..., frames
+        let pixels: Vec<_> = (head[13]..head[15]).flat_map(|y| (head[12]..head[14]).map(move |x| (x as i64, y as i64))).collect();
         let mut counts = vec![0; pixels.len()];
         words.whole(); // no initial depth
         for _ in 0..words.whole() {
-            (0..10).for_each(|_| { words.whole(); }); // the state is the default; first index
+            (0..11).for_each(|_| { words.whole(); }); // the state is the default; first index
             let vertices: Vec<raster::Vertex> = (0..words.whole()).map(|_| [0; 4].map(|_| words.float())).collect();
             for _ in 0..words.whole() {
                 let triangle = [0; 3].map(|_| vertices[words.whole()]);

@@ -46,7 +46,9 @@ class Choice {
       if (!why_not_shown(specimen.name).empty()) continue;
       const bool named = property == specimen.named_by;
       std::uint64_t& tried = shown.tried[specimen.name];
-      if (shown.faults.contains(specimen.name) || !(named || (!deep && tried < kPatience))) continue;
+      if (shown.faults.contains(specimen.name) ||
+          !(deep ? named && !shown_anywhere(specimen) : named || tried < kPatience))
+        continue;
       ++tried;
       if (wrong_by(*test, specimen.render)) test->flags.insert(specimen.name);
     }
@@ -96,14 +98,16 @@ class Choice {
     return mode;
   }
 
+  bool shown_anywhere(const zoo::Specimen& specimen) const {
+    return std::any_of(shown_.begin(), shown_.end(),
+                       [&](const auto& mode) { return mode.second.faults.contains(specimen.name); });
+  }
+
   bool names_one_alive(const std::string& property) const {
-    for (const zoo::Specimen& specimen : zoo::specimens()) {
-      if (property != specimen.named_by) continue;
-      if (std::none_of(shown_.begin(), shown_.end(),
-                       [&](const auto& mode) { return mode.second.faults.contains(specimen.name); }))
-        return true;
-    }
-    return false;
+    const auto all = zoo::specimens();
+    return std::any_of(all.begin(), all.end(), [&](const zoo::Specimen& specimen) {
+      return property == specimen.named_by && why_not_shown(specimen.name).empty() && !shown_anywhere(specimen);
+    });
   }
 
   int number_;

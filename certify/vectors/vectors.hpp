@@ -147,8 +147,9 @@ struct Verdict {
   std::string text;
   bool passed = false;
 };
-// Holds lines of results against what is owed; of each file of which a test is answered, all are to be.
-Verdict verify(std::span<const Owed> owed, std::string_view lines);
+// Holds lines of results against what is owed. Of each file of which a test is answered, all are to be; but of those in
+// the smoke set alone, if no others are answered.
+Verdict verify(std::span<const Owed> owed, std::string_view lines, const std::set<int>& smoke);
 // {"results": [{"id": 1001, "frames": [{"count": [...], ...}]}]}, frames as those that tests expect, as lines.
 std::string lines_of_json(const std::string& text, const std::string& path);
 

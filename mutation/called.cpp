@@ -191,7 +191,7 @@ bool zoo_names(const std::function<void(const std::string&)>& print) {
     for (const std::string& sentence : sentences) print("  " + sentence + "\n");
   }
   print(fmt::format("{} of {} further faults are called what they are\n", further_named, further_done));
-  for (const zoo::Specimen& specimen : zoo::specimens()) {
+  for (const zoo::Specimen& specimen : zoo::rival_specimens()) {
     if (certify::interrupted()) return false;
     const std::vector<judge::Wrong> wrong = shown_wrong(pool, specimen.render);
     const std::vector<judge::Name> names = judge::name_fault(certify::known_faults(), wrong, false);

@@ -32,7 +32,7 @@ std::vector<Animal> animals(const std::vector<std::string>& only) {
   std::vector<Animal> all = {{adapters::kExactName, true}, {adapters::kExactSecondName, true}};
   for (const adapters::GridRasterizer& grid : adapters::grid_rasterizers()) all.push_back({grid.name, true});
   for (std::size_t n = 0; n < zoo::right_rasterizers().size(); ++n) all.push_back({zoo::right_name(n), true});
-  for (const zoo::Specimen& specimen : zoo::specimens()) all.push_back({specimen.name, false});
+  for (const zoo::Specimen& specimen : zoo::rival_specimens()) all.push_back({specimen.name, false});
   const auto matches = [](const std::string& pattern, const Animal& animal) {
     return fnmatch(pattern.c_str(), animal.name.c_str(), 0) == 0;
   };

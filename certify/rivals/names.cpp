@@ -21,7 +21,7 @@ constexpr std::size_t kScenes = 24, kTries = 1200;
 std::span<const judge::Fault> known_faults() {
   static const std::vector<judge::Fault> faults = [] {
     std::vector<judge::Fault> all;
-    for (const zoo::Specimen& specimen : zoo::specimens()) {
+    for (const zoo::Specimen& specimen : zoo::rival_specimens()) {
       all.push_back({specimen.name, specimen.fault, specimen.seen_in, specimen.render});
     }
     return all;

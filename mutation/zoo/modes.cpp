@@ -175,6 +175,13 @@ constexpr Specimen kSpecimens[] = {
          if (t.barycentrics[i] != 0 && weights[i] != 0) t.barycentrics[i] = weights[i];
        return status;
      }},
+    {"less-is-less-equal", "of equal depths the later one is seen, whatever the test", "", "equality-scene",
+     [](const Target& t, Draws d) {
+       Target changed = t;
+       if (t.depth_test == DepthTest::less) changed.depth_test = DepthTest::less_equal;
+       if (t.depth_test == DepthTest::greater) changed.depth_test = DepthTest::greater_equal;
+       return right(changed, d);
+     }},
     {"grid-truncated", "positions are truncated to the grid", "accepted by VK-GL-CTS", "equality-grid",
      [](const Target& t, Draws d) { return with_grid(t, d, [](Grid& g) { g.rounding = GridRounding::truncate; }); }},
     {"grid-nearest-up", "ties go up, not to the even position", "", "equality-grid",

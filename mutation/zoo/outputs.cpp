@@ -69,13 +69,6 @@ constexpr Specimen kSpecimens[] = {
          if (c.depth_test == DepthTest::greater_equal) c.depth_test = DepthTest::greater;
        });
      }},
-    {"less-is-less-equal", "of equal depths the later one is seen, whatever the test", "", "equality-scene",
-     [](const Target& t, Draws d) {
-       return with_target(t, d, [](Target& c) {
-         if (c.depth_test == DepthTest::less) c.depth_test = DepthTest::less_equal;
-         if (c.depth_test == DepthTest::greater) c.depth_test = DepthTest::greater_equal;
-       });
-     }},
     {"bias-ignored", "depth has no bias", "", "equality-modes",
      [](const Target& t, Draws d) { return with_state(t, d, [](Draw& draw) { draw.depth_bias.reset(); }); }},
     {"bias-without-slope", "the slope has no part in the bias", "", "equality-modes",

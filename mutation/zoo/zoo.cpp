@@ -16,4 +16,8 @@ std::span<const Specimen> specimens() {
   return all;
 }
 
+std::span<const Specimen> rival_specimens() {
+  return specimens().first(specimens().size() - output_specimens().size());
+}
+
 }  // namespace surefill::zoo

@@ -24,6 +24,9 @@ struct Specimen {
 // All of them, by theme: coverage, arithmetic, values, frames, modes.
 std::span<const Specimen> specimens();
 
+// Those whose fault shows in what version 1 of the adapter has: all but output_specimens().
+std::span<const Specimen> rival_specimens();
+
 // One list a theme; specimens() joins them.
 std::span<const Specimen> coverage_specimens();
 std::span<const Specimen> arithmetic_specimens();

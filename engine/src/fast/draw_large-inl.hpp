@@ -180,7 +180,7 @@ class LargeTriangles : public SmallTriangles<kDepth, kWinner, kCount> {
     return ~outside & ((columns & 15) * 0x1111u) & kCellsOfRows[rows & 15];
   }
 
-  // The edges at the cells of area n. Returns the cells that are not outside an edge, and in `full` those within all.
+  // The edges at the cells of area n. Returns those not known to be outside (a hint: time alone hangs on it), `full`: inside.
   template <bool kThin>
   HWY_INLINE std::uint32_t SetUpCells(const TilePlane& plane, std::size_t n, bool special, std::uint32_t& full) {
     const CellInt d;

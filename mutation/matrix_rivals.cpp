@@ -87,7 +87,8 @@ Outcome first_finding(const ZooRivalOptions& options, const Animal& animal) {
 }  // namespace
 
 bool zoo_rivals(const ZooRivalOptions& options, const std::function<void(const std::string&)>& print) {
-  const std::vector<Animal> all = animals(options.only);
+  std::vector<Animal> all = animals(options.only);
+  if (options.undeclared) std::erase_if(all, [](const Animal& animal) { return animal.right; });
   std::atomic<std::size_t> next{0};
   std::size_t right = 0, certified = 0, rejected = 0;
   std::string failure;

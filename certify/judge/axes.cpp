@@ -331,7 +331,7 @@ std::vector<Reading> readings_of(const AxisFit& fit) {
       const double offset = (fit.boundary + moved) / step - (nearest ? 0.5 : 0);
       reading.axis.grid_offset = (offset - std::floor(offset)) * step;
       if (moved != 0 && reading.axis.grid_offset != 0) continue;
-      reading.oddity = oddity + (reading.axis.grid_offset != 0 ? 10 : 0) + (moved != 0 ? 20 : 0);
+      reading.oddity = oddity + (reading.axis.grid_offset != 0 ? 18 : 0) + (moved != 0 ? 20 : 0);
       const double middle = fit.boundary + 8 + step / 2;
       reading.shift = snapped(middle + moved, reading.axis) - fit.middle(middle);
       const bool kept = std::all_of(fit.ties.begin(), fit.ties.end(),

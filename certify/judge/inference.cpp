@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
+#include <utility>
 
 #include "certify/judge/axes.hpp"
 #include "certify/judge/facts.hpp"
@@ -68,7 +70,7 @@ Choice choice_of(const Reading& reading, double low, double high, const std::opt
   choice.axis.place = place ? *place : (low + high) / 2;
   choice.axis.place_within = place ? 0 : (high - low) / 2 + 0x1p-26;
   if (place) choice.axis.blur = std::max({choice.axis.blur, 2 * (low - *place), 2 * (*place - high)});
-  choice.oddity += unusual;
+  choice.oddity += unusual + (choice.axis.place < 0 || choice.axis.place >= 1 ? 2 : 0);
   if (declared && declared->bits == choice.axis.bits && declared->rounding == choice.axis.rounding &&
       declared->grid_offset == choice.axis.grid_offset && declared->place == choice.axis.place) {
     choice.oddity = -1;
@@ -127,9 +129,9 @@ class Chooser {
   Chooser(Rival& rival, const Expected& expected, std::vector<Probe>& probes)
       : rival_(rival), expected_(expected), probes_(probes) {}
 
-  // The first of the choices of this axis that no probe refutes: it meets every other one in a triangle that tells them
+  // The choices of this axis that no probe refutes: the first of them meets every other one in a triangle that tells them
   // apart. Where there should be one and none is found, positions are known to a step. `both` is the model so far.
-  Choice choose(std::vector<Choice> choices, int axis, const Model& both, bool offscreen) {
+  std::vector<Choice> choose(std::vector<Choice> choices, int axis, const Model& both, bool offscreen) {
     const AxisModel& other = axis == 0 ? both.y : both.x;
     const double step = rival_.position_step();
     std::size_t best = 0;
@@ -162,7 +164,11 @@ class Chooser {
       AxisModel& chosen = choices[best].axis;
       chosen.blur = std::max(chosen.blur, std::ldexp(1.0, -chosen.bits));
     }
-    return choices[best];
+    std::vector<Choice> left{choices[best]};
+    for (std::size_t c = 0; c < choices.size() && !unsure; ++c) {
+      if (c != best && wrong[c] == wrong[best]) left.push_back(choices[c]);
+    }
+    return left;
   }
 
  private:
@@ -202,6 +208,22 @@ class Chooser {
   std::vector<Probe>& probes_;
   Random random_{0xC40};
 };
+
+// Of choices that nobody can tell apart, those that say the same of both axes, if there are any; else the first ones.
+std::pair<AxisModel, AxisModel> in_the_same_words(const std::vector<Choice>& xs, const std::vector<Choice>& ys) {
+  const auto alike = [](const AxisModel& a, const AxisModel& b) {
+    return a.bits == b.bits && a.rounding == b.rounding && a.grid_offset == b.grid_offset && a.moved == b.moved;
+  };
+  const Choice *best_x = &xs.front(), *best_y = &ys.front();
+  for (const Choice& x : xs) {
+    for (const Choice& y : ys) {
+      if (!alike(x.axis, y.axis)) continue;
+      const bool found = alike(best_x->axis, best_y->axis);
+      if (!found || x.oddity + y.oddity < best_x->oddity + best_y->oddity) best_x = &x, best_y = &y;
+    }
+  }
+  return {best_x->axis, best_y->axis};
+}
 
 // --- whether all of it holds
 
@@ -380,8 +402,10 @@ Inference infer(Rival& rival, const Expected& expected, const std::optional<Mode
     model.vertices = oracle::AtVertices::open;
     model = with_facts(model, facts);
     Chooser chooser(rival, expected, probes);
-    model.x = chooser.choose(xs, 0, model, result.offscreen).axis;
-    model.y = chooser.choose(ys, 1, model, result.offscreen).axis;
+    const std::vector<Choice> left_x = chooser.choose(xs, 0, model, result.offscreen);
+    model.x = left_x.front().axis;
+    const std::vector<Choice> left_y = chooser.choose(ys, 1, model, result.offscreen);
+    std::tie(model.x, model.y) = in_the_same_words(left_x, left_y);
     result.model = model;
   } catch (const Declined& reason) {
     give_up(expected, probes, reason.what(), x, y, result);

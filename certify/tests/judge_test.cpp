@@ -173,6 +173,36 @@ TEST(Judge, WithoutAModelOnlyWhatHoldsUnderEachIsOwed) {
   }
 }
 
+// One that is right but for its values: depth is half of what it should be.
+class HalfDepth : public Right {
+ public:
+  using Right::Right;
+  corpus::Image draw(const corpus::Scene& scene, const corpus::Outputs& wanted) override {
+    corpus::Image image = Right::draw(scene, wanted);
+    for (float& z : image.depth) z = std::isfinite(z) ? z / 2 : z;
+    return image;
+  }
+};
+
+// Away from edges values are judged without a model, too.
+TEST(Judge, WrongDepthsAreFoundWithoutAModel) {
+  Terms nothing;
+  nothing.model = least_known_model();
+  const corpus::Scene scene = flat_scene(16, 16, {{{{1, 1}, {15, 1}, {1, 15}}}}, 0.75f);
+  for (const bool wrong : {false, true}) {
+    Right right(control());
+    HalfDepth half(control());
+    Right& rival = wrong ? half : right;
+    corpus::Frame frame(scene, rival.outputs());
+    const Judgement judgement =
+        judge_image(adapters::oracle_expected(), nothing, {16, 16, 1, DepthTest::less, false, frame.draws()},
+                    rival.draw(scene, rival.outputs()), {}, {});
+    EXPECT_GT(judgement.samples, 20u);
+    EXPECT_EQ(judgement.differences > 0, wrong) << judgement.finding;
+    EXPECT_EQ(judgement.finding.rfind("depth at", 0) == 0, wrong) << judgement.finding;
+  }
+}
+
 // What the judge says can be red: a picture that is right under one model is wrong under another.
 TEST(Judge, AnotherModelIsAccused) {
   Right rival(with({{zoo::kPlace, 1}}));

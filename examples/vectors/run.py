@@ -23,9 +23,8 @@ def counts(test, fault):
         for corners in draw["triangles"]:
             triangle = [vertices[k] for k in corners]
             if all(math.isfinite(number) for vertex in triangle for number in vertex):
-                for s in range(len(result)):
-                    x, y = x0 + s % (x1 - x0), y0 + s // (x1 - x0)
-                    result[s] += raster.covered(triangle, draw["state"]["fill_rule"], x, y, fault)
+                for x, y in raster.rasterize(triangle, draw["state"]["fill_rule"], (x0, y0, x1, y1), fault):
+                    result[(y - y0) * (x1 - x0) + x - x0] += 1
     return result
 
 

@@ -9,7 +9,7 @@ file(GLOB test_sources CONFIGURE_DEPENDS
   ${tests}/oracle/tests/*.cpp ${tests}/properties/tests/*.cpp ${tests}/textbook/tests/*.cpp)
 add_executable(surefill_tests ${test_sources})
 target_link_libraries(surefill_tests PRIVATE
-  surefill_adapters surefill_zoo_specimens surefill_properties surefill_flags surefill_quick_build GTest::gtest_main rapidcheck rapidcheck_gtest gmpxx gmp)
+  surefill_report surefill_adapters surefill_zoo_specimens surefill_properties surefill_flags surefill_quick_build GTest::gtest_main rapidcheck rapidcheck_gtest gmpxx gmp)
 
 # define_for(FILE ... DEFINE DEFINITION ...): for these files alone, so that a compiler cache serves all others wherever the tree lies.
 function(define_for)

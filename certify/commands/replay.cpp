@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <iterator>
 #include <sstream>
 #include <vector>
 
 #include "certify/run/judge.hpp"
+#include "certify/run/progress.hpp"
 #include "properties/machinery/compare.hpp"
 
 namespace surefill::certify {
@@ -166,6 +168,112 @@ void replay_by_model(const Scene& scene, const RivalSubject& subject, const corp
                             judgement.open);
 }
 
+template <typename Value>
+bool same_bits_at(const std::vector<Value>& a, const std::vector<Value>& b, std::size_t sample, std::size_t samples) {
+  if (a.size() != b.size()) return false;
+  const std::size_t components = a.size() / samples;
+  return std::memcmp(a.data() + components * sample, b.data() + components * sample, components * sizeof(Value)) == 0;
+}
+
+// Of these no words need be made.
+bool same_bits(const Image& a, const Image& b, std::size_t sample, std::size_t samples) {
+  bool same = same_bits_at(a.count, b.count, sample, samples) && same_bits_at(a.index, b.index, sample, samples) &&
+              same_bits_at(a.depth, b.depth, sample, samples) &&
+              same_bits_at(a.barycentrics, b.barycentrics, sample, samples) &&
+              a.attributes.size() == b.attributes.size();
+  for (std::size_t k = 0; same && k < a.attributes.size(); ++k) {
+    same = same_bits_at(a.attributes[k], b.attributes[k], sample, samples);
+  }
+  return same;
+}
+
+// The samples of an image that differ, in words. `first`: the number of its first sample.
+struct Listing {
+  std::size_t total = 0, differing = 0, shown = 0;
+  std::string list;
+
+  void add(const Scene& scene, const Image& expected, const Image& actual, std::size_t first, const char* other_name,
+           bool all, std::vector<bool>& marked) {
+    total += marked.size();
+    for (std::size_t sample = 0; sample < marked.size(); ++sample) {
+      if (!all && same_bits(expected, actual, sample, marked.size())) continue;
+      const std::vector<Value> wanted = values_at(scene, expected, sample), got = values_at(scene, actual, sample);
+      marked[sample] = differs(wanted, got);
+      if (marked[sample]) ++differing;
+      if (!all && (!marked[sample] || shown == kMostSamples)) continue;
+      ++shown;
+      list += sample_text(scene, first + sample);
+      for (std::size_t i = 0; i < wanted.size(); ++i) {
+        const bool same = wanted[i].text == got[i].text;
+        list += fmt::format("  {} {:<8} oracle {:<34} {} {}\n", same ? ' ' : '!', wanted[i].name, wanted[i].text,
+                            other_name, got[i].text);
+      }
+    }
+  }
+
+  std::string end(const char* other_name, bool equal) const {
+    std::string text = list;
+    if (differing > shown) {
+      text += fmt::format("  ... and {} more samples that differ (--all shows them)\n", differing - shown);
+    }
+    return text + (equal ? fmt::format("  equal: oracle = {}, {} samples\n", other_name, total)
+                         : fmt::format("  DIFFERENT: {} of {} samples\n", differing, total));
+  }
+};
+
+// A frame that is drawn at once takes some hundred bytes a sample.
+constexpr std::size_t kMostAtOnce = std::size_t{1} << 22;  // samples
+
+bool is_drawn_in_bands(const Scene& scene) {
+  const auto across = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.samples);
+  return across * static_cast<std::size_t>(scene.height) > kMostAtOnce && scene.layers == 1 &&
+         scene.more == corpus::MoreOutputs{};
+}
+
+// Rows y to y + rows - 1 of the scene: by S6 the same samples.
+Scene band_of(const Scene& scene, int y, int rows) {
+  Scene band = scene;
+  band.height = rows;
+  band.origin.y += y;
+  const auto across = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.samples);
+  if (scene.initial_depth.size() > 1) {
+    const auto begin = scene.initial_depth.begin() + static_cast<std::ptrdiff_t>(across * static_cast<std::size_t>(y));
+    band.initial_depth.assign(begin, begin + static_cast<std::ptrdiff_t>(across * static_cast<std::size_t>(rows)));
+  }
+  return band;
+}
+
+// A frame that is too large to be drawn at once, band by band, so that memory stays bounded and the time left is seen.
+void replay_in_bands(const Scene& scene, const properties::Renderer& other, const char* other_name,
+                     const ReplayOptions& options, Replay& result) {
+  const auto across = static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.samples);
+  const int most = static_cast<int>(std::max<std::size_t>(kMostAtOnce / across, 1));
+  result.text += fmt::format("  drawn in bands of {} rows, each with its own origin (S6)\n", most);
+  const corpus::Outputs outputs = properties::outputs_of(scene);
+  Listing listing;
+  Progress progress;
+  for (int y = 0; y < scene.height && !interrupted(); y += most) {
+    progress.show(fmt::format("replay: row {} of {}", y, scene.height), y, scene.height);
+    const Scene band = band_of(scene, y, std::min(most, scene.height - y));
+    corpus::Frame expected(band, outputs), actual(band, outputs);
+    const Status statuses[] = {properties::oracle_renderer()(expected.target(), expected.draws()),
+                               other(actual.target(), actual.draws())};
+    for (const Status status : statuses) {
+      if (status == Status::ok) continue;
+      progress.clear();
+      result.text += fmt::format("  rows from {}: \"{}\"\n", y, status_text(status));
+      result.equal = false;
+      return;
+    }
+    std::vector<bool> marked(sample_total(expected.target()), false);
+    listing.add(band, expected.image(), actual.image(), across * static_cast<std::size_t>(y), other_name, options.all,
+                marked);
+  }
+  progress.clear();
+  result.equal = listing.differing == 0 && !interrupted();
+  result.text += interrupted() ? std::string("  interrupted\n") : listing.end(other_name, result.equal);
+}
+
 }  // namespace
 
 Replay replay(const Scene& original, const std::string& name, const ReplayOptions& options) {
@@ -179,6 +287,19 @@ Replay replay(const Scene& original, const std::string& name, const ReplayOption
   std::string& text = result.text;
   text = head_of(scene, name);
 
+  if (!rival && is_drawn_in_bands(scene)) {
+    // The vertices that pass a viewport, and whether it is a frame at all, are the same in every band.
+    for (const properties::Difference& difference :
+         judge(band_of(scene, 0, 1), properties::oracle_renderer(), other, 16).first) {
+      if (difference.output != "vertex") continue;
+      text += "  " + describe_finding(difference, scene.samples) + "\n";
+      result.equal = false;
+    }
+    const bool vertices = result.equal;
+    replay_in_bands(scene, other, other_name, options, result);
+    result.equal = result.equal && vertices;
+    return result;
+  }
   const corpus::Outputs outputs = properties::outputs_of(scene);
   const bool by_model = rival && !options.subject->strict;
   corpus::Frame expected(scene, outputs);
@@ -221,36 +342,17 @@ Replay replay(const Scene& original, const std::string& name, const ReplayOption
   for (const properties::Difference& difference : comparison.first) {
     if (difference.output == "vertex") text += "  " + describe_finding(difference, scene.samples) + "\n";
   }
-  const std::size_t total = sample_total(expected.target());
-  std::vector<bool> marked(total, false);
-  std::size_t shown = 0, differing = 0;
-  std::string list;
-  for (std::size_t sample = 0; sample < total; ++sample) {
-    const std::vector<Value> wanted = values_at(scene, expected.image(), sample);
-    const std::vector<Value> got = values_at(scene, actual.image(), sample);
-    marked[sample] = differs(wanted, got);
-    if (marked[sample]) ++differing;
-    if (!options.all && (!marked[sample] || shown == kMostSamples)) continue;
-    ++shown;
-    list += sample_text(scene, sample);
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      const bool same = wanted[i].text == got[i].text;
-      list += fmt::format("  {} {:<8} oracle {:<34} {} {}\n", same ? ' ' : '!', wanted[i].name, wanted[i].text,
-                          other_name, got[i].text);
-    }
-  }
+  std::vector<bool> marked(sample_total(expected.target()), false);
+  Listing listing;
+  listing.add(scene, expected.image(), actual.image(), 0, other_name, options.all, marked);
   if (fits_a_map(scene) && !expected.image().count.empty()) {
     text += "  counts, oracle:\n" + coverage_map(scene, expected.image(), {});
-    if (differing > 0) {
+    if (listing.differing > 0) {
       text += fmt::format("  counts, {}, '!' where any output differs:\n", other_name);
       text += coverage_map(scene, actual.image(), marked);
     }
   }
-  text += list;
-  if (differing > shown)
-    text += fmt::format("  ... and {} more samples that differ (--all shows them)\n", differing - shown);
-  text += result.equal ? fmt::format("  equal: oracle = {}, {} samples\n", other_name, total)
-                       : fmt::format("  DIFFERENT: {} of {} samples\n", differing, total);
+  text += listing.end(other_name, result.equal);
   return result;
 }
 

@@ -10,14 +10,12 @@
 #include <vector>
 
 #include "certify/report/report_files.hpp"
+#include "certify/report/report_pictures.hpp"
 #include "corpus/scene.hpp"
 
 namespace surefill::certify {
 
 namespace {
-
-constexpr int kViewPixels = 14;     // of a zoomed view, each way, at most
-constexpr double kPanelSize = 420;  // of a picture on the page, in CSS pixels
 
 constexpr const char* kStyle = R"(
 body{font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:#1d2129;background:#f6f7f9;margin:0}
@@ -31,8 +29,9 @@ h1{font-size:24px;margin:0 0 4px}h2{font-size:19px;margin:36px 0 10px}h3{font-si
 .card{background:#fff;border-radius:8px;padding:18px;margin:0 0 18px}
 .pictures{display:flex;gap:18px;flex-wrap:wrap;margin:10px 0}
 figure{margin:0}figcaption{font-size:13px;color:#40454f;margin:0 0 4px}
-svg{background:#fff;border:1px solid #cfd3da}
+svg{background:#fff;border:1px solid #cfd3da;max-width:100%;height:auto}
 table{border-collapse:collapse;width:100%;background:#fff;font-size:13.5px}
+.wide{overflow-x:auto}.wide svg{max-width:none}
 th,td{text-align:left;padding:6px 9px;border-bottom:1px solid #e4e7eb;vertical-align:top}
 td.n{text-align:right;font-variant-numeric:tabular-nums;white-space:nowrap}
 .ok{color:#1a7f45;font-weight:bold}.FAIL{color:#c02a2a;font-weight:bold}.skip,.part{color:#a87400;font-weight:bold}
@@ -41,24 +40,6 @@ pre{background:#f0f2f5;padding:10px;border-radius:6px;overflow-x:auto;margin:6px
 .say{font-weight:600}.key span{display:inline-block;width:12px;height:12px;border-radius:6px;margin:0 4px 0 12px;vertical-align:-1px}
 dl{display:grid;grid-template-columns:max-content 1fr;gap:2px 16px;margin:0}dt{color:#59606c}dd{margin:0;overflow-wrap:anywhere}
 )";
-
-std::string escaped(const std::string& text) {
-  std::string result;
-  for (const char c : text) {
-    if (c == '<') {
-      result += "&lt;";
-    } else if (c == '>') {
-      result += "&gt;";
-    } else if (c == '&') {
-      result += "&amp;";
-    } else if (c == '"') {
-      result += "&quot;";
-    } else {
-      result += c;
-    }
-  }
-  return result;
-}
 
 // Findings of one cause say the same but for numbers: the place, the case, the values that floats have.
 std::string cause_of(const CheckResult& result) {
@@ -90,147 +71,11 @@ std::string cause_of(const CheckResult& result) {
   return pattern;
 }
 
-struct Point {
-  double x, y;
-};
-
-// The part of a triangle in front of the eye, on the screen, for a picture: clipped to W > 0 and a wide box. Empty if
-// it has none, or a number that is none.
-std::vector<Point> outline(const std::array<Vertex, 3>& triangle, double size) {
-  std::vector<std::array<double, 3>> polygon;
-  double largest = 0;
-  for (const Vertex& v : triangle) {
-    if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.w)) return {};
-    polygon.push_back({v.x, v.y, v.w});
-    largest = std::max({largest, std::abs(double{v.x}), std::abs(double{v.y}), std::abs(double{v.w})});
-  }
-  if (largest == 0) return {};
-  const double far = 4 * size + 64;
-  const std::array<std::array<double, 4>, 5> planes{
-      {{0, 0, 1, -1e-12 * largest}, {1, 0, far, 0}, {-1, 0, far, 0}, {0, 1, far, 0}, {0, -1, far, 0}}};
-  for (const auto& plane : planes) {
-    const auto distance = [&plane](const std::array<double, 3>& p) {
-      return plane[0] * p[0] + plane[1] * p[1] + plane[2] * p[2] + plane[3];
-    };
-    std::vector<std::array<double, 3>> clipped;
-    for (std::size_t i = 0; i < polygon.size(); ++i) {
-      const auto &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-      const double da = distance(a), db = distance(b);
-      if (da >= 0) clipped.push_back(a);
-      if ((da < 0) == (db < 0)) continue;
-      const double t = da / (da - db);
-      clipped.push_back({a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), a[2] + t * (b[2] - a[2])});
-    }
-    polygon = std::move(clipped);
-  }
-  std::vector<Point> points;
-  for (const auto& p : polygon) {
-    if (p[2] > 0) points.push_back({p[0] / p[2], p[1] / p[2]});
-  }
-  return points;
-}
-
-std::vector<std::vector<Point>> outlines(const corpus::Scene& scene) {
-  std::vector<std::vector<Point>> result;
-  try {
-    const corpus::Frame frame(scene, {false, false, false, false, false});
-    for (const Draw& draw : frame.draws()) {
-      for (std::size_t t = 0; 3 * t < draw.indices.size(); ++t) {
-        std::array<Vertex, 3> triangle{};
-        for (std::size_t i = 0; i < 3; ++i) triangle[i] = draw.vertices[draw.indices[3 * t + i]];
-        result.push_back(outline(triangle, std::max(scene.width, scene.height)));
-      }
-    }
-  } catch (const corpus::SceneError&) {
-    result.clear();  // the picture then shows the samples alone
-  }
-  return result;
-}
-
-struct View {
-  int x0, y0, x1, y1;
-};
-
-// The pixels around those that differ.
-View zoomed(const Evidence& evidence) {
-  View view{evidence.x0 + evidence.width, evidence.y0 + evidence.height, evidence.x0, evidence.y0};
-  std::size_t s = 0;
-  for (int y = evidence.y0; y < evidence.y0 + evidence.height; ++y) {
-    for (int x = evidence.x0; x < evidence.x0 + evidence.width; ++x) {
-      for (int n = 0; n < evidence.samples; ++n, ++s) {
-        if (!evidence.differs[s]) continue;
-        // The first difference stays in view, others as far as there is place.
-        if (view.x1 > view.x0 && (std::max(view.x1, x + 1) - std::min(view.x0, x) > kViewPixels - 4 ||
-                                  std::max(view.y1, y + 1) - std::min(view.y0, y) > kViewPixels - 4)) {
-          continue;
-        }
-        view = {std::min(view.x0, x), std::min(view.y0, y), std::max(view.x1, x + 1), std::max(view.y1, y + 1)};
-      }
-    }
-  }
-  if (view.x1 <= view.x0) {
-    view = {evidence.x0, evidence.y0, evidence.x0 + std::min(kViewPixels, evidence.width),
-            evidence.y0 + std::min(kViewPixels, evidence.height)};
-  }
-  const View all{evidence.x0, evidence.y0, evidence.x0 + evidence.width, evidence.y0 + evidence.height};
-  return {std::max(all.x0, view.x0 - 2), std::max(all.y0, view.y0 - 2), std::min(all.x1, view.x1 + 2),
-          std::min(all.y1, view.y1 + 2)};
-}
-
-const char* colour_of(std::uint32_t count) {
-  return count == 0 ? "#c3c8d0" : count == 1 ? "#2467b5" : count == 2 ? "#e08a00" : "#8a3ab9";
-}
-
-std::string picture(const Evidence& evidence, const std::vector<std::uint32_t>& counts, const View& view,
-                    const std::vector<std::vector<Point>>& triangles, const std::string& caption, bool marks) {
-  const int width = view.x1 - view.x0, height = view.y1 - view.y0;
-  const double scale = kPanelSize / std::max({width, height, 2});
-  std::string svg =
-      fmt::format("<figure><figcaption>{}</figcaption><svg width=\"{:.0f}\" height=\"{:.0f}\" viewBox=\"{} {} {} {}\">",
-                  escaped(caption), width * scale, height * scale, view.x0, view.y0, width, height);
-  for (int x = view.x0; x <= view.x1; ++x) {
-    svg +=
-        fmt::format("<line x1=\"{0}\" y1=\"{1}\" x2=\"{0}\" y2=\"{2}\" stroke=\"#e1e4e9\" stroke-width=\"{3:.4f}\"/>",
-                    x, view.y0, view.y1, 1 / scale);
-  }
-  for (int y = view.y0; y <= view.y1; ++y) {
-    svg +=
-        fmt::format("<line x1=\"{1}\" y1=\"{0}\" x2=\"{2}\" y2=\"{0}\" stroke=\"#e1e4e9\" stroke-width=\"{3:.4f}\"/>",
-                    y, view.x0, view.x1, 1 / scale);
-  }
-  constexpr std::array<const char*, 6> kHues{"#2467b5", "#c2571a", "#1a7f45", "#8a3ab9", "#b0346e", "#5b6b00"};
-  for (std::size_t t = 0; t < triangles.size() && t < 200; ++t) {
-    if (triangles[t].size() < 2) continue;
-    svg += "<polygon points=\"";
-    for (const Point& p : triangles[t]) svg += fmt::format("{:.6f},{:.6f} ", p.x, p.y);
-    const char* hue = kHues[t % kHues.size()];
-    svg += fmt::format("\" fill=\"{}\" fill-opacity=\"0.10\" stroke=\"{}\" stroke-width=\"{:.4f}\"/>", hue, hue,
-                       1.6 / scale);
-  }
-  std::size_t s = 0;
-  const double radius = evidence.samples == 1 ? 0.13 : 0.05;
-  for (int y = evidence.y0; y < evidence.y0 + evidence.height; ++y) {
-    for (int x = evidence.x0; x < evidence.x0 + evidence.width; ++x) {
-      for (int n = 0; n < evidence.samples; ++n, ++s) {
-        if (x < view.x0 || x >= view.x1 || y < view.y0 || y >= view.y1) continue;
-        const SampleLocation at = sample_location(evidence.samples, n);
-        const double cx = x + at.x / 16.0, cy = y + at.y / 16.0;
-        svg += fmt::format("<circle cx=\"{:.4f}\" cy=\"{:.4f}\" r=\"{:.3f}\" fill=\"{}\"/>", cx, cy, radius,
-                           colour_of(counts[s]));
-        if (evidence.samples == 1 && scale > 18) {
-          svg += fmt::format(
-              "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"0.24\" fill=\"#40454f\" text-anchor=\"middle\">{}</text>",
-              cx, cy + 0.4, counts[s]);
-        }
-        if (!marks || !evidence.differs[s]) continue;
-        svg += fmt::format(
-            "<circle cx=\"{:.4f}\" cy=\"{:.4f}\" r=\"{:.3f}\" fill=\"none\" stroke=\"#d01f1f\" "
-            "stroke-width=\"{:.4f}\"/>",
-            cx, cy, radius * 1.9, std::max(2 / scale, 0.03));
-      }
-    }
-  }
-  return svg + "</svg></figure>\n";
+// What a finding says was expected, and what came.
+std::pair<std::string, std::string> values_in(const std::string& finding) {
+  const std::size_t expected = finding.find(": expected "), got = finding.find(", got ", expected);
+  if (expected == std::string::npos || got == std::string::npos) return {};
+  return {finding.substr(expected + 11, got - expected - 11), finding.substr(got + 6)};
 }
 
 std::string finding_card(const std::vector<const CheckResult*>& findings, const std::string& cause) {
@@ -250,26 +95,27 @@ std::string finding_card(const std::vector<const CheckResult*>& findings, const 
                         grouped(findings[n]->failed), grouped(findings[n]->done), escaped(findings[n]->unit));
   }
   html += fmt::format(".</p>\n<p>{}: {} [{}]</p>\n", escaped(best.name), escaped(best.claim), escaped(best.rule));
-  if (!is_pattern) html += fmt::format("<p class=\"say\">{}</p>\n", escaped(said));
+  if (!is_pattern && said != cause) html += fmt::format("<p class=\"say\">{}</p>\n", escaped(said));
   const Evidence& evidence = best.evidence;
   if (evidence.width > 0 && !best.scene_text.empty()) {
-    std::vector<std::vector<Point>> triangles;
-    try {
-      triangles = outlines(corpus::read_scene(best.scene_text));
-    } catch (const corpus::SceneError&) {
-      triangles.clear();  // a certificate that was edited
-    }
+    const std::vector<Outline> triangles = outlines(best.scene_text);
     const View view = zoomed(evidence);
     html += "<div class=\"pictures\">\n";
-    html += picture(evidence, evidence.expected, view, triangles, "Expected: covers of each sample", false);
+    // Counts are drawn in any case; where it is something else that differs, its values at the first place are written.
+    const auto [wanted, came] = values_in(said);
+    const bool of_values = !evidence.what.empty() && evidence.what != "count" && !wanted.empty();
+    html += picture(evidence, evidence.expected, view, triangles,
+                    of_values ? "Expected: " + wanted : "Expected: covers of each sample", of_values);
     if (!evidence.actual.empty()) {
       const std::string what = evidence.what.empty() ? ""
                                                      : ", where " + evidence.what + " differ" +
                                                            (evidence.what == "values" ? "" : "s") + " ringed";
-      html += picture(evidence, evidence.actual, view, triangles, "Got" + what, true);
+      html +=
+          picture(evidence, evidence.actual, view, triangles, of_values ? "Got: " + came + what : "Got" + what, true);
     } else {
       html += "<p>The rasterizer gave no image of this scene.</p>\n";
     }
+    html += inset(evidence, triangles);
     if (view.x1 - view.x0 < evidence.width || view.y1 - view.y0 < evidence.height) {
       const View whole{evidence.x0, evidence.y0, evidence.x0 + evidence.width, evidence.y0 + evidence.height};
       html += picture(evidence, evidence.actual.empty() ? evidence.expected : evidence.actual, whole, triangles,
@@ -330,8 +176,11 @@ std::string model_card(const Facts& facts) {
   for (const std::string& sentence : facts.departures) line("Note:", sentence);
   for (const std::string& what : facts.open) line("Not found out:", what);
   if (!facts.turns.empty()) {
-    html += "<p>Where edges stop covering the sample of a pixel, from the pixel's centre:</p>\n<pre>" +
-            escaped(facts.turns) + "</pre>\n";
+    html +=
+        "<p>Where edges stop covering the sample of a pixel, in pixels from the pixel's centre:</p>\n"
+        "<div class=\"wide\">" +
+        turns_picture(facts.turns) + "</div><details><summary>As numbers</summary><pre>" + escaped(facts.turns) +
+        "</pre></details>\n";
   }
   return html + "</div>\n";
 }
@@ -374,11 +223,12 @@ std::string html_report(const Certificate& certificate) {
 
   for (const auto& [group, results] : groups) {
     html += fmt::format(
-        "<h2>Checks{}</h2>\n<table><tr><th></th><th>Check</th><th>Cases</th><th>Not applicable</th><th>Samples</th>"
+        "<h2>Checks{}</h2>\n<div class=\"wide\"><table><tr><th></th><th>Check</th><th>Cases</th><th>Not "
+        "applicable</th><th>Samples</th>"
         "<th>Differ</th><th>Time</th></tr>\n",
         group.empty() ? "" : ": " + escaped(group));
     for (const CheckResult& result : results) html += row(result);
-    html += "</table>\n";
+    html += "</table></div>\n";
   }
   html += "<h2>What was run</h2>\n<div class=\"card\"><dl>\n";
   const auto fact = [&html](const char* name, const std::string& value) {

@@ -65,6 +65,20 @@ TEST_F(Adapter, TheEngineBehindTheAdapterIsExact) {
   EXPECT_EQ(certify("--plugin " SUREFILL_ENGINE_PLUGIN), 0) << out;
 }
 
+// What a profile grants is no difference: the values of this one are not the oracle's bits.
+TEST_F(Adapter, ReplayGrantsWhatTheCheckGrants) {
+  std::ofstream(folder_ / "sloped.scene")
+      << "surefill-scene 1\ntarget 8 8\ndraw\n  vertex 0.3 0.1 0.1 1\n"
+         "  vertex 23.1 2.7 0.7 3\n  vertex 1.1 12.4 0.9 1.7\n  triangle 0 1 2\nend\n";
+  EXPECT_EQ(surefill("replay --command 'python3 " SUREFILL_PYTHON_RIVAL "' sloped.scene"), 0) << out;
+  EXPECT_TRUE(says("as its model says: ")) << out;
+  EXPECT_EQ(
+      surefill("replay " + python_with("z = array(\"f\", [mean(", "z = array(\"f\", [0.25 + mean(") + " sloped.scene"),
+      1)
+      << out;
+  EXPECT_TRUE(says("WRONG: ") && says("depth at pixel")) << out;
+}
+
 // Version 2: structs that are shorter or longer than those that certify knows.
 TEST_F(Adapter, StructsOfVersion2MayBeOfAnotherSize) {
   const std::string plugin = "--only alone,model --plugin " SUREFILL_SECOND_PLUGIN " --plugin-arguments ";

@@ -374,6 +374,21 @@ TEST_F(Command, FindsTheSameWhateverTheThreads) {
   EXPECT_EQ(without_seconds(run(arguments + "1").out), without_seconds(run(arguments + "3").out));
 }
 
+// Band by band, so that memory stays bounded; places and sums are those of the whole.
+TEST_F(Command, ReplaysLargeTargetsInBands) {
+  corpus::Scene scene;
+  scene.width = 3000;
+  scene.height = 1500;
+  corpus::SceneDraw& draw = scene.draws.emplace_back();
+  draw.vertices = {{2990, 1398, 0, 1, {}}, {3000, 1398, 0, 1, {}}, {2990, 1402, 0, 1, {}}};
+  draw.triangles.push_back({{0, 1, 2}, std::nullopt});
+  write("large.scene", corpus::write_scene(scene));
+  const Outcome outcome = run("replay large.scene");
+  EXPECT_EQ(outcome.status, 0) << outcome.out << outcome.err;
+  EXPECT_NE(outcome.out.find("drawn in bands of 1398 rows"), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("equal: oracle = engine, 4500000 samples"), std::string::npos) << outcome.out;
+}
+
 TEST_F(Command, Replays) {
   write("a.scene", corpus::write_scene([] {
           corpus::Scene scene;

@@ -41,30 +41,24 @@ def python(name):
 
 ROWS = (
     Row("GDAL, RasterizeLayer", "python3-gdal", python("gdal_rasterize"), "3.6.2", "certified", "",
-        "Right: samples at the centres of pixels, float64, each sample on an edge owned once.",
-        "It keeps to no grid: \"16 bits\" is how finely float64 was told from a grid."),
+        "Right: samples at the centres of pixels, float64, each sample on an edge owned once."),
     Row("scikit-image, draw.polygon", "python3-skimage", python("scikit_image"), "0.19.3", "certified", "",
-        "Right, and not watertight: samples on an edge are covered by both neighbours.",
-        "It keeps to no grid: \"16 bits\" is how finely float64 was told from a grid."),
+        "Right, and not watertight: samples on an edge are covered by both neighbours."),
     Row("cairo, ANTIALIAS_NONE", "python3-cairo", python("cairo_fill"), "1.16.0", "not certified", "clear-samples",
         "A fault: positions are 24.8 fixed point, and what lies at 2^23 pixels or beyond wraps: the triangle is lost (at 2^23 - 1 it is "
-        "drawn). Under 300 random triangles, 12 of 43,200 samples are other than on that grid of 8 bits.",
-        "A grid of 6 bits: cairo's has 8."),
-    Row("Agg in matplotlib, not antialiased", "python3-matplotlib", python("matplotlib_agg"), "3.6.3", "not certified",
-        "model, clear-samples",
+        "drawn). Under 300 random triangles, 12 of 43,200 samples are other than on that grid of 8 bits."),
+    Row("Agg in matplotlib, not antialiased", "python3-matplotlib", python("matplotlib_agg"), "3.6.3", "certified", "",
         "It does not look at samples: each pixel is drawn of which the triangle covers 1/256 or more (over 60 random triangles, no pixel "
-        "beside the triangle was drawn, and none missed with more than 0.0039 of its area). Meshes overlap along their edges.",
-        "`clear-samples` calls pixels wrong whose corner the triangle covers."),
-    Row("Pillow, ImageDraw.polygon", "python3-pil", python("pillow"), "9.4.0", "not certified", "model, clear-samples",
+        "beside the triangle was drawn, and none missed with more than 0.0039 of its area). Meshes overlap along their edges. \"Certified\" says no more than that away from edges it is right: no model fits, so that is all that is owed."),
+    Row("Pillow, ImageDraw.polygon", "python3-pil", python("pillow"), "9.4.0", "not certified", "model",
         "It draws the outline as well as the inside: edges reach half a pixel further than their triangle on all sides. Meshes overlap "
-        "along their edges.",
-        "`clear-samples` calls pixels wrong that the outline passes."),
-    Row("OpenCV, fillConvexPoly", "python3-opencv", python("opencv"), "4.6.0", "not certified", "model",
+        "along their edges. No place of the samples explains that, which `model` says; away from edges it is right."),
+    Row("OpenCV, fillConvexPoly", "python3-opencv", python("opencv"), "4.6.0", "certified", "",
         "It draws the outline as well as the inside: edges reach half a pixel further than their triangle on all "
         "sides. Meshes overlap along their edges."),
     Row("Qt, QPainter, not antialiased", "python3-pyqt5", python("qt_painter"), "5.15.8", "not certified", "model, clear-samples",
         "Not settled: upright and level edges keep to a grid of 1/64 pixel; slanted ones go by no model that was tried."),
-    Row("pygame, draw.polygon", "python3-pygame", python("pygame_polygon"), "2.1.2", "not certified", "model, clear-samples",
+    Row("pygame, draw.polygon", "python3-pygame", python("pygame_polygon"), "2.1.2", "not certified", "model",
         "It takes whole pixels, and draws the outline as well as the inside. A fault that the adapter hides: it goes through all rows of a "
         "triangle, those outside of the image, too, so that one of 2^23 rows takes more than 5 s."),
     Row("three.js, SoftwareRenderer", "npm:three@0.106.2", '--command "node examples/rivals/three_software.mjs"', "106",
@@ -143,8 +137,8 @@ The adapters are in [examples/rivals](../examples/rivals); most are ten lines ov
 [certificates](certificates/README.md).
 
 Nobody here is wrong for being another rasterizer than ours. Drawing libraries that draw outlines, or whole pixels that a triangle
-touches, do what they are for; they are not certified because meshes overlap under such a rule, and because no place of samples explains it.
-Where certify itself says what is not so, the last column says "yes", and the section says what; each is a fault of the judge that
+touches, do what they are for. No place of samples explains such a rule, so that little is owed: certify says "none fits" and judges them away
+from edges; where it says "not certified: model" of one of them, read what is said by hand. Where certify itself says what is not so, the last column says "yes", and the section says what; each is a fault of the judge that
 is to be mended.
 
 | rasterizer | package | model found | verdict | unfair to it |

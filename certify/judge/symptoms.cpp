@@ -36,15 +36,17 @@ bool stands_elsewhere(const Wrong& shown, int dx, int dy, bool turned) {
   const int width = right.width, height = right.height;
   const auto samples = static_cast<std::size_t>(right.samples);
   if (samples != 1 || right.count.empty() || right.count == rival.count) return false;
+  bool explains = false;  // a pixel that is wrong: where all come from beside the target nothing is said
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const int from_x = x + dx, from_y = turned ? height - 1 - y : y + dy;
       if (from_x < 0 || from_y < 0 || from_x >= width || from_y >= height) continue;
       const auto at = [width](int i, int j) { return static_cast<std::size_t>(j * width + i); };
       if (rival.count[at(x, y)] != right.count[at(from_x, from_y)]) return false;
+      explains = explains || rival.count[at(x, y)] != right.count[at(x, y)];
     }
   }
-  return true;
+  return explains;
 }
 
 // The scenes whose wrong values all follow one rule; those where the output is right say nothing.

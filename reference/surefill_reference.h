@@ -62,7 +62,8 @@
 // Threads    Calls share no state: any number may run at once on different targets. A call starts threads of its own
 //            only if Options asks for them, and they end with it; or it uses the caller's.
 // Memory     A call allocates what it needs and frees it, or leaves it to a Context: at most 12 bytes a sample, 32 MiB
-//            and 1 MiB a thread, however many triangles there are; on the reference path up to 12 bytes a sample and layer. When
+//            and 1 MiB a thread, however many triangles there are; on the reference path, and where scalar code
+//            does a part (see Path), up to 12 bytes a sample and layer more. When
 //            that cannot be had, the status is out_of_memory.
 
 
@@ -325,7 +326,7 @@ struct Statistics {
 enum class Path : std::uint8_t {
   automatic,  // the fast path; for layers, winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlap, touched and the
   // index of conservative draws it finds who covers, and exact scalar code does the rest; the reference path
-  // where the target has an origin, and for 2^32 - 1 triangles and more in all draws together
+  // where a target with an origin has a draw with a Grid, and for 2^32 - 1 triangles and more in all draws together
   reference,  // the scalar reference path, on one thread
 };
 

@@ -32,7 +32,9 @@ inline constexpr auto kDrawFields = std::make_tuple(
     DrawField<std::optional<Scissor>>{"scissor", &DrawState::scissor, "X0 Y0 X1 Y1"},
     DrawField<std::optional<Grid>>{"grid", &DrawState::grid, "BITS OFFSET_X OFFSET_Y ROUNDING"},
     DrawField<std::optional<std::array<Vertex, 8>>>{"culling-box", &DrawState::culling_box, "X Y Z W of eight corners"},
-    DrawField<std::optional<DepthBias>>{"depth-bias", &DrawState::depth_bias, "CONSTANT SLOPE"});
+    DrawField<std::optional<DepthBias>>{"depth-bias", &DrawState::depth_bias, "CONSTANT SLOPE"},
+    DrawField<Primitive>{"primitive", &DrawState::primitive},
+    DrawField<std::optional<float>>{"width", &DrawState::width, "PIXELS"});
 
 // visit(field) for each row, in the order in which scenes are written.
 template <typename Visit>
@@ -52,10 +54,12 @@ struct IntegerRange {
 };
 struct FiniteNumber {};  // of a float that may not be a NaN or an infinity
 inline constexpr FiniteNumber kFiniteNumber;
+struct PositiveNumber {};  // of a finite float above 0
+inline constexpr PositiveNumber kPositiveNumber;
 inline constexpr IntegerRange kAnyInteger{std::numeric_limits<int>::min(), std::numeric_limits<int>::max()};
 
-// visit(part, range) for a whole number, visit(part, kFiniteNumber) for a finite float, visit(part) for any float or an
-// enumerator: the parts of a structure in the order in which scenes have them. `Structure` may be const.
+// visit(part, range) for a whole number, visit(part, kFiniteNumber) for a finite float, kPositiveNumber if it is above 0
+// too, visit(part) for any float or an enumerator: the parts of a structure in the order in which scenes have them. `Structure` may be const.
 template <typename Structure, typename Visit>
 void for_each_part(Structure& value, Visit&& visit) {
   using Plain = std::remove_const_t<Structure>;
@@ -67,6 +71,8 @@ void for_each_part(Structure& value, Visit&& visit) {
         visit(value.offset_y, IntegerRange{0, 15}), visit(value.rounding);
   } else if constexpr (std::is_same_v<Plain, DepthBias>) {
     visit(value.constant, kFiniteNumber), visit(value.slope, kFiniteNumber);
+  } else if constexpr (std::is_same_v<Plain, float>) {
+    visit(value, kPositiveNumber);  // a width
   } else {
     static_assert(std::is_same_v<Plain, std::array<Vertex, 8>>);
     for (auto& corner : value) visit(corner.x), visit(corner.y), visit(corner.z), visit(corner.w);

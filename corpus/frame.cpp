@@ -55,12 +55,10 @@ Frame::Frame(const Scene& scene, const Outputs& outputs) : initial_depth_(scene.
   draws_.reserve(scene.draws.size());
   std::size_t triangles_before = 0;
   for (const SceneDraw& from : scene.draws) {
-    if (!from.points.empty() || !from.lines.empty())
-      throw SceneError("scene: points and lines cannot be drawn yet (M7)");
     DrawStorage& storage = storage_.emplace_back();
     storage.vertices = pixel_vertices(from);
     for (const SceneTriangle& triangle : from.triangles) {
-      storage.indices.insert(storage.indices.end(), triangle.vertices.begin(), triangle.vertices.end());
+      for (std::size_t i = 0; i < corners_of(from.primitive); ++i) storage.indices.push_back(triangle.vertices[i]);
       if (triangle.identifier) storage.identifiers.push_back(*triangle.identifier);
     }
     if (!storage.identifiers.empty() && storage.identifiers.size() != from.triangles.size()) {
@@ -109,8 +107,9 @@ Frame::Frame(const Scene& scene, const Outputs& outputs) : initial_depth_(scene.
   });
   if (outputs.numbers && scene.more.numbers) {
     for (Draw& draw : draws_) {
-      draw.covered = image_.covered.emplace_back(draw.indices.size() / 3);
-      if (!conservative) draw.visible = image_.visible.emplace_back(draw.indices.size() / 3);
+      const std::size_t primitives = draw.indices.size() / corners_of(draw.primitive);
+      draw.covered = image_.covered.emplace_back(primitives);
+      if (!conservative) draw.visible = image_.visible.emplace_back(primitives);
     }
   }
   if (!outputs.attributes || conservative) return;

@@ -27,6 +27,8 @@ inline constexpr Names<FillRule, 10> kFillRuleNames{{{FillRule::top_left, "top-l
                                                      {FillRule::northwards_west, "northwards-west"},
                                                      {FillRule::closed, "closed"},
                                                      {FillRule::open, "open"}}};
+inline constexpr Names<Primitive, 3> kPrimitiveNames{
+    {{Primitive::triangles, "triangles"}, {Primitive::lines, "lines"}, {Primitive::points, "points"}}};
 inline constexpr Names<FrontFace, 2> kFrontFaceNames{
     {{FrontFace::clockwise, "clockwise"}, {FrontFace::counter_clockwise, "counter-clockwise"}}};
 inline constexpr Names<Cull, 3> kCullNames{{{Cull::none, "none"}, {Cull::front, "front"}, {Cull::back, "back"}}};
@@ -54,6 +56,9 @@ inline constexpr Names<ClipDepth, 2> kClipDepthNames{
 inline constexpr Names<ClipY, 2> kClipYNames{{{ClipY::up, "y-up"}, {ClipY::down, "y-down"}}};
 inline constexpr Names<bool, 2> kSwitchNames{{{true, "on"}, {false, "off"}}};
 
+// The keyword of one primitive.
+inline constexpr std::array<std::string_view, 3> kPrimitiveWords{"triangle", "line", "point"};
+
 // The words of what a scene asks for beyond the usual outputs.
 inline constexpr std::array<std::pair<std::string_view, bool MoreOutputs::*>, 3> kMoreOutputs{
     {{"winding", &MoreOutputs::winding},
@@ -67,6 +72,8 @@ constexpr const auto& names_of() {
     return kFillRuleNames;
   } else if constexpr (std::is_same_v<Enum, FrontFace>) {
     return kFrontFaceNames;
+  } else if constexpr (std::is_same_v<Enum, Primitive>) {
+    return kPrimitiveNames;
   } else if constexpr (std::is_same_v<Enum, Cull>) {
     return kCullNames;
   } else if constexpr (std::is_same_v<Enum, DepthMode>) {

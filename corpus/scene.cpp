@@ -39,13 +39,6 @@ bool same(const SceneTriangle& a, const SceneTriangle& b) {
   return a.vertices == b.vertices && a.identifier == b.identifier;
 }
 
-bool same(const ScenePoint& a, const ScenePoint& b) {
-  return a.vertex == b.vertex && same(a.size, b.size);
-}
-bool same(const SceneLine& a, const SceneLine& b) {
-  return a.vertices == b.vertices && same(a.width, b.width);
-}
-
 bool same(const SceneAttribute& a, const SceneAttribute& b) {
   return a.name == b.name && a.components == b.components && a.interpolation == b.interpolation;
 }
@@ -81,8 +74,7 @@ bool same_optional(const std::optional<Value>& a, const std::optional<Value>& b)
 
 bool same(const SceneDraw& a, const SceneDraw& b) {
   return same_optional(a.viewport, b.viewport) && same_elements(a.vertices, b.vertices) &&
-         same_elements(a.triangles, b.triangles) && same_elements(a.points, b.points) &&
-         same_elements(a.lines, b.lines) && a.first_index == b.first_index && same(a.state(), b.state());
+         same_elements(a.triangles, b.triangles) && a.first_index == b.first_index && same(a.state(), b.state());
 }
 
 std::string error_text(int code) {

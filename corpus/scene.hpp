@@ -20,21 +20,17 @@ namespace surefill::corpus {
 
 inline constexpr int kSceneVersion = 1;
 
-// Triangle of a draw: vertex numbers of that draw, and the caller's identifier where the draw has them.
+// A primitive of a draw: vertex numbers of that draw, and the caller's identifier where the draw has them. Where the draw's
+// primitive is lines or points, the numbers that it does not need are the last one that it does.
 struct SceneTriangle {
   std::array<std::uint32_t, 3> vertices{};
   std::optional<std::uint32_t> identifier;
 };
 
-// Points and lines are part of the format; they are drawn once docs/semantics.md has their rules (M7).
-struct ScenePoint {
-  std::uint32_t vertex = 0;
-  float size = 1;  // pixels
-};
-struct SceneLine {
-  std::array<std::uint32_t, 2> vertices{};
-  float width = 1;  // pixels
-};
+// The vertices of a primitive: 3, 2 or 1.
+constexpr std::size_t corners_of(Primitive primitive) {
+  return primitive == Primitive::triangles ? 3 : primitive == Primitive::lines ? 2 : 1;
+}
 
 // An attribute of every vertex of every draw of the scene.
 struct SceneAttribute {
@@ -53,9 +49,7 @@ struct SceneVertex {
 struct SceneDraw : DrawState {
   std::optional<Viewport> viewport;
   std::vector<SceneVertex> vertices;
-  std::vector<SceneTriangle> triangles;  // all have an identifier, or none
-  std::vector<ScenePoint> points;
-  std::vector<SceneLine> lines;
+  std::vector<SceneTriangle> triangles;      // all have an identifier, or none
   std::optional<std::uint32_t> first_index;  // unset: the number of triangles in the draws before this one
 };
 
@@ -126,7 +120,7 @@ struct Image {
 };
 
 // The engine's view of a scene: converts vertices to pixel space, holds the arrays that the spans point into.
-// Not movable once made; the scene may be destroyed. Throws SceneError where the scene has points or lines.
+// Not movable once made; the scene may be destroyed.
 class Frame {
  public:
   explicit Frame(const Scene& scene, const Outputs& outputs = {});

@@ -234,10 +234,9 @@ class Reader {
     return number;
   }
 
-  float width_field(std::size_t field) const {
-    if (fields_.size() <= field) return 1;
-    const float value = finite(fields_[field]);
-    if (!(value > 0)) fail(quoted(fields_[field]) + " is not greater than 0");
+  float positive(std::string_view field) const {
+    const float value = finite(field);
+    if (!(value > 0)) fail(quoted(field) + " is not greater than 0");
     return value;
   }
 
@@ -344,6 +343,7 @@ class Reader {
   void check_draw() const {
     if (draw().grid && draw().fill_rule > FillRule::northwards_west)
       fail("the fill rules closed and open have no grid (C5)");
+    check_primitive();
     if (draw().conservative != Conservative::none) {
       if (scene_.samples != 1) fail_at(conservative_line_, "a conservative draw needs samples 1 (M4)");
       if (draw().depth_mode != DepthMode::none)
@@ -358,6 +358,23 @@ class Reader {
     if (start + draw().triangles.size() > kNoTriangle) {
       fail("first-index " + std::to_string(start) + " plus " + std::to_string(draw().triangles.size()) +
            " triangles exceeds 4294967295 (B5)");
+    }
+  }
+
+  // Of points and lines (M7, I8).
+  void check_primitive() const {
+    if (!draw().triangles.empty() && first_primitive_ != draw().primitive) {
+      fail_at(primitive_line_, std::string(kPrimitiveWords[static_cast<std::size_t>(first_primitive_)]) +
+                                   " in a draw whose primitive is not " +
+                                   std::string(kPrimitiveNames[static_cast<std::size_t>(first_primitive_)].second));
+    }
+    if (draw().primitive == Primitive::triangles) return;
+    if (draw().grid) fail("lines and points have no grid (M7)");
+    if (draw().fill_rule > FillRule::northwards_west) fail("lines and points have no fill rule closed or open (M7)");
+    if (draw().conservative != Conservative::none) fail("lines and points are not conservative (M7)");
+    if (draw().depth_bias) fail("lines and points have no depth-bias (I8)");
+    if (draw().primitive == Primitive::lines && !draw().width && scene_.samples != 1) {
+      fail("lines without a width need samples 1 (M7)");
     }
   }
 
@@ -410,7 +427,8 @@ class Reader {
       if constexpr (std::is_enum_v<Part>) {
         part = word(text, names_of<Part>());
       } else if constexpr (std::is_same_v<Part, float>) {
-        part = sizeof...(range) == 0 ? real(text) : finite(text);
+        constexpr bool kPositive = (std::is_same_v<std::remove_cvref_t<decltype(range)>, PositiveNumber> || ...);
+        part = sizeof...(range) == 0 ? real(text) : kPositive ? positive(text) : finite(text);
       } else {
         (..., (part = integer(text, range.least, range.most)));
       }
@@ -431,13 +449,20 @@ class Reader {
     draw().vertices.push_back(std::move(vertex));
   }
 
-  void read_triangle() {
+  void read_triangle() { read_primitive(Primitive::triangles); }
+  void read_line() { read_primitive(Primitive::lines); }
+  void read_point() { read_primitive(Primitive::points); }
+
+  void read_primitive(Primitive primitive) {
+    if (draw().triangles.empty()) first_primitive_ = primitive, primitive_line_ = line_;
+    if (primitive != first_primitive_) fail("a draw has triangles, lines or points, and one kind of them");
     SceneTriangle triangle;
-    for (std::size_t i = 0; i < 3; ++i) triangle.vertices[i] = vertex_number(fields_[i + 1]);
-    if (fields_.size() > 4) {
-      if (fields_.size() != 6 || fields_[4] != "id")
-        fail("triangle I J K [id N]: 'id' and a number may follow the vertices");
-      triangle.identifier = integer<std::uint32_t>(fields_[5], 0, kNoTriangle);
+    const std::size_t corners = corners_of(primitive);
+    for (std::size_t i = 0; i < 3; ++i) triangle.vertices[i] = vertex_number(fields_[std::min(i + 1, corners)]);
+    if (fields_.size() > corners + 1) {
+      if (fields_.size() != corners + 3 || fields_[corners + 1] != "id")
+        fail(std::string(fields_[0]) + ": 'id' and a number may follow the vertices");
+      triangle.identifier = integer<std::uint32_t>(fields_[corners + 2], 0, kNoTriangle);
       if (*triangle.identifier == kNoTriangle) fail("id 4294967295 is what an empty sample holds (B5)");
     }
     std::vector<SceneTriangle>& triangles = draw().triangles;
@@ -447,9 +472,6 @@ class Reader {
     triangles.push_back(triangle);
   }
 
-  void read_point() { draw().points.push_back({vertex_number(fields_[1]), width_field(2)}); }
-  void read_line() { draw().lines.push_back({{vertex_number(fields_[1]), vertex_number(fields_[2])}, width_field(3)}); }
-
   std::string_view rest_;  // the text from the next line on
   std::string_view file_;
   std::size_t line_ = 0;  // the number of the line in fields_, from 1
@@ -458,7 +480,8 @@ class Reader {
   Seen frame_seen_;
   std::size_t components_ = 0;   // of all attributes
   std::uint64_t triangles_ = 0;  // in the draws before this one
-  std::size_t initial_depth_line_ = 0, conservative_line_ = 0, locations_line_ = 0;
+  std::size_t initial_depth_line_ = 0, conservative_line_ = 0, locations_line_ = 0, primitive_line_ = 0;
+  Primitive first_primitive_ = Primitive::triangles;  // of the draw at hand
   Scene scene_;
 };
 
@@ -480,8 +503,8 @@ const std::array<Reader::Keyword, 6> Reader::kDrawKeywords{{
     {"first-index", "N", 1, 1, false, &Reader::read_first_index},
     {"vertex", "X Y Z W [VALUES]", 4, kAnyCount, true, &Reader::read_vertex},
     {"triangle", "I J K [id N]", 3, 5, true, &Reader::read_triangle},
-    {"point", "I [SIZE]", 1, 2, true, &Reader::read_point},
-    {"line", "I J [WIDTH]", 2, 3, true, &Reader::read_line},
+    {"point", "I [id N]", 1, 3, true, &Reader::read_point},
+    {"line", "I J [id N]", 2, 4, true, &Reader::read_line},
 }};
 
 }  // namespace

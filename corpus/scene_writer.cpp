@@ -83,21 +83,9 @@ class Writer {
       text_ += '\n';
     }
     for (const auto& [vertices, identifier] : draw.triangles) {
-      begin("triangle");
-      append_all(vertices[0], vertices[1], vertices[2]);
+      begin(kPrimitiveWords[static_cast<std::size_t>(draw.primitive)]);
+      for (std::size_t i = 0; i < corners_of(draw.primitive); ++i) append(vertices[i]);
       if (identifier) append_all("id", *identifier);
-      text_ += '\n';
-    }
-    for (const auto& [vertex, size] : draw.points) {
-      begin("point");
-      append(vertex);
-      if (size != 1) append(size);
-      text_ += '\n';
-    }
-    for (const auto& [vertices, width] : draw.lines) {
-      begin("line");
-      append_all(vertices[0], vertices[1]);
-      if (width != 1) append(width);
       text_ += '\n';
     }
     indent_ = "";

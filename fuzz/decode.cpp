@@ -172,6 +172,10 @@ void decode_part(ByteReader& in, Grid& grid) {
 void decode_part(ByteReader& in, DepthBias& bias) {
   bias.constant = finite(in.real()), bias.slope = finite(in.real());
 }
+void decode_part(ByteReader& in, float& width) {
+  width = std::fabs(finite(in.real()));
+  if (!(width > 0)) width = 1;
+}
 void decode_part(ByteReader&, std::array<Vertex, 8>&) {}  // it is made of the vertices, at the end
 
 // What a frame has beyond size, samples and depth.
@@ -265,6 +269,11 @@ SceneDraw decode_draw(ByteReader& in, std::size_t components, const Scene& scene
     }
   });
   if (draw.conservative != Conservative::none) draw.grid.reset();  // M4
+  if (draw.primitive != Primitive::triangles) {                    // M7, I8
+    draw.grid.reset(), draw.depth_bias.reset();
+    draw.fill_rule = on_grid(draw.fill_rule), draw.conservative = Conservative::none;
+    if (draw.primitive == Primitive::lines && scene.samples > 1 && !draw.width) draw.width = 1.0f;
+  }
   if (draw.grid) draw.fill_rule = on_grid(draw.fill_rule);
   if ((flags & kHasFirstIndex) != 0) draw.first_index = std::min(in.word(), kNoTriangle - triangles);
   for (SceneVertex& vertex : draw.vertices) {
@@ -274,7 +283,11 @@ SceneDraw decode_draw(ByteReader& in, std::size_t components, const Scene& scene
   }
   for (std::uint32_t t = 0; t < triangles; ++t) {
     SceneTriangle& triangle = draw.triangles.emplace_back();
-    for (std::uint32_t& v : triangle.vertices) v = in.below(static_cast<std::uint32_t>(draw.vertices.size()));
+    const std::size_t corners = corpus::corners_of(draw.primitive);
+    for (std::size_t i = 0; i < 3; ++i) {
+      triangle.vertices[i] =
+          i < corners ? in.below(static_cast<std::uint32_t>(draw.vertices.size())) : triangle.vertices[i - 1];
+    }
     if ((flags & kHasIdentifiers) != 0) triangle.identifier = std::min(in.word(), kNoTriangle - 1);  // B5
   }
   if (draw.culling_box) draw.culling_box = box_of(draw);
@@ -291,7 +304,6 @@ bool same_box(const std::array<Vertex, 8>& a, const std::array<Vertex, 8>& b) {
 }
 
 bool draw_fits(const SceneDraw& draw) {
-  if (!draw.points.empty() || !draw.lines.empty()) return false;
   if (draw.vertices.size() > kMaxVertices || draw.triangles.size() > kMaxTriangles) return false;
   if (draw.culling_box) {
     const std::optional<std::array<Vertex, 8>> own = box_of(draw);
@@ -314,6 +326,10 @@ bool encode_part(ByteWriter& out, const Grid& grid) {
 }
 bool encode_part(ByteWriter& out, const DepthBias& bias) {
   out.real(bias.constant), out.real(bias.slope);
+  return true;
+}
+bool encode_part(ByteWriter& out, float width) {
+  out.real(width);
   return true;
 }
 bool encode_part(ByteWriter&, const std::array<Vertex, 8>&) {
@@ -359,7 +375,7 @@ bool encode_draw(ByteWriter& out, const SceneDraw& draw) {
     for (const float value : vertex.attributes) out.real(value);
   }
   for (const SceneTriangle& triangle : draw.triangles) {
-    for (const std::uint32_t v : triangle.vertices) out.byte(v);
+    for (std::size_t i = 0; i < corpus::corners_of(draw.primitive); ++i) out.byte(triangle.vertices[i]);
     if (identifiers) out.word(triangle.identifier.value_or(0));
   }
   return true;
@@ -430,7 +446,7 @@ std::optional<Bytes> encode_one(const Scene& scene, bool with_grid) {
   }
   if (scene.attributes.size() > 1 || component_total(scene) > 1) return std::nullopt;
   const SceneDraw& draw = scene.draws[0];
-  if (draw.vertices.size() != 3 || draw.triangles.size() != 1 || !draw.points.empty() || !draw.lines.empty() ||
+  if (draw.vertices.size() != 3 || draw.triangles.size() != 1 || draw.primitive != Primitive::triangles || draw.width ||
       draw.triangles[0].vertices != std::array<std::uint32_t, 3>{0, 1, 2} || draw.triangles[0].identifier ||
       draw.viewport || draw.first_index || !draw.depth_write || draw.conservative != Conservative::none ||
       draw.scissor || draw.grid.has_value() != with_grid || draw.culling_box || draw.depth_bias) {

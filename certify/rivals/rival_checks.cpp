@@ -320,7 +320,7 @@ class List {
     check.run = [scenes, equal, &subject](std::uint64_t number) {
       const auto& [name, scene] = (*scenes)[number];
       for (const corpus::SceneDraw& draw : scene.draws) {
-        if (!draw.points.empty() || !draw.lines.empty()) return not_applicable();
+        if (draw.primitive != Primitive::triangles) return not_applicable();
       }
       CaseResult result = equal(scene, subject);
       if (result.differences > 0) result.finding = name + ": " + result.finding;

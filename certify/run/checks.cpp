@@ -30,7 +30,7 @@ CaseResult skipped_case() {
 
 bool has_points_or_lines(const Scene& scene) {
   return std::any_of(scene.draws.begin(), scene.draws.end(),
-                     [](const corpus::SceneDraw& draw) { return !draw.points.empty() || !draw.lines.empty(); });
+                     [](const corpus::SceneDraw& draw) { return draw.primitive != Primitive::triangles; });
 }
 
 void add_corpus_checks(const Settings& settings, std::vector<Check>& checks) {

@@ -193,7 +193,7 @@ bool of_version_1(const corpus::SceneDraw& draw) {
                                                             "depth-write", "conservative", "scissor", "grid",
                                                             "culling-box", "depth-bias"};
   const DrawState none;
-  bool plain = draw.points.empty() && draw.lines.empty();
+  bool plain = draw.primitive == Primitive::triangles;
   corpus::for_each_draw_field([&](const auto& field) {
     if (std::find(kFields.begin(), kFields.end(), field.name) == kFields.end())
       plain = plain && draw.*field.member == none.*field.member;

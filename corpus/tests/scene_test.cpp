@@ -121,8 +121,7 @@ TEST(SceneText, EveryFieldComesBack) {
   draw.viewport = Viewport{1, 2, 3, 4, 0.1F, 0.9F, ClipDepth::zero_to_one, ClipY::down};
   draw.vertices = {{1, 2, 3, 4, {5, 6, 7}}, {8, 9, 10, -0.F, {-0.F, 0.3F, 1e-45F}}, {0, 0, 0, 1, {0, 0, 0}}};
   draw.triangles = {{{0, 1, 2}, 7}, {{2, 1, 0}, 4294967294}};
-  draw.points = {{1, 1}, {2, 0.3F}};
-  draw.lines = {{{0, 1}, 1}, {{2, 2}, 1.5F}};
+  draw.width = 0.3F;
   draw.first_index = 5;
   draw.front_face = FrontFace::counter_clockwise;
   draw.cull = Cull::front;
@@ -151,6 +150,21 @@ TEST(SceneText, EveryFieldComesBack) {
   layered.layers = 16;
   EXPECT_TRUE(equal(layered, read_scene(write_scene(layered))));
   EXPECT_FALSE(equal(layered, triangle_scene()));
+}
+
+TEST(Scene, LinesAndPointsAreWrittenAndReadAgain) {
+  for (const Primitive primitive : {Primitive::lines, Primitive::points}) {
+    Scene scene = read_scene(with_frame_lines(""));
+    SceneDraw& draw = scene.draws[0];
+    draw.primitive = primitive;
+    draw.width = 0.3F;
+    const bool lines = primitive == Primitive::lines;
+    draw.triangles = {{{0, lines ? 2u : 0u, lines ? 2u : 0u}, 7}, {{1, 1, 1}, 8}};
+    EXPECT_TRUE(equal(read_scene(write_scene(scene)), scene)) << write_scene(scene);
+    const Frame frame(scene);
+    EXPECT_EQ(frame.draws()[0].indices.size(), lines ? 4u : 2u);
+    EXPECT_EQ(validate(frame.target(), frame.draws()), Status::ok);
+  }
 }
 
 TEST(SceneText, CommentsComeBack) {
@@ -287,6 +301,15 @@ TEST(SceneText, RefusalsNameLineAndCause) {
       {with_frame_lines("sample-locations 1 2\ndraw\nconservative over\nend"),
        "f:5: a frame with a conservative draw has no sample locations (S7)"},
       {with_draw_lines("depth-bias 0 inf"), "f:4: 'inf' is not finite"},
+      {with_draw_lines("primitive line"), "f:4: 'line' is none of: triangles, lines, points"},
+      {with_draw_lines("primitive lines\nwidth 0"), "f:5: '0' is not greater than 0"},
+      {with_draw_lines("vertex 0 0 0 1\nline 0 0"), "f:5: line in a draw whose primitive is not lines"},
+      {with_draw_lines("primitive points\nvertex 0 0 0 1\npoint 0\nline 0 0"),
+       "f:7: a draw has triangles, lines or points, and one kind of them"},
+      {with_draw_lines("primitive points\nvertex 0 0 0 1\npoint 0 1"),
+       "f:6: point: 'id' and a number may follow the vertices"},
+      {with_draw_lines("primitive points\ndepth-bias 0 1"), "f:6: lines and points have no depth-bias (I8)"},
+      {with_draw_lines("grid 8 0 0 truncate\nprimitive lines"), "f:6: lines and points have no grid (M7)"},
       {with_frame_lines("initial-depth"), "f:3: initial-depth Z...: 1 or more fields expected, 0 given"},
       {with_frame_lines("initial-depth 1 2\ninitial-depth 3"),
        "f:4: initial-depth: 3 values for a target of 16 samples; give one, or one a sample"},

@@ -135,9 +135,10 @@ bool indices_in_range(const Draw& draw) {
 }
 
 Status validate_draw(const Target& target, const Draw& draw, const Outputs& outputs) {
+  if (draw.primitive > Primitive::points) return Status::draw_primitive;
   const std::uint64_t vertices = draw.vertices.size(), triangles = triangles_of(draw);
   if (null_but_not_empty(draw.vertices) || vertices > kLargestIndex) return Status::draw_vertices;
-  if (null_but_not_empty(draw.indices) || draw.indices.size() % 3 != 0 || triangles >= kLargestIndex) {
+  if (null_but_not_empty(draw.indices) || draw.indices.size() % corners_of(draw) != 0 || triangles >= kLargestIndex) {
     return Status::draw_indices;
   }
   if (!draw.identifiers.empty() && (draw.identifiers.data() == nullptr || draw.identifiers.size() != triangles)) {
@@ -146,7 +147,8 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
   if (has_no_triangle(draw.identifiers)) return Status::draw_identifiers;
   if (draw.identifiers.empty() && triangles > kLargestIndex - draw.first_index) return Status::draw_first_index;
   if (const Status status = validate_attributes(target, draw); status != Status::ok) return status;
-  if (draw.fill_rule > FillRule::open || (draw.grid && !moves_samples(draw.fill_rule))) return Status::draw_fill_rule;
+  const bool needs_step = draw.grid || !has_triangles(draw);
+  if (draw.fill_rule > FillRule::open || (needs_step && !moves_samples(draw.fill_rule))) return Status::draw_fill_rule;
   if (draw.front_face > FrontFace::counter_clockwise) return Status::draw_front_face;
   if (draw.cull > Cull::back) return Status::draw_cull;
   if (draw.depth_mode > DepthMode::clamp) return Status::draw_depth_mode;
@@ -154,19 +156,22 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
     const Grid& grid = *draw.grid;
     const auto offset_ok = [](int offset) { return offset >= 0 && offset <= 15; };
     if (grid.bits < 0 || grid.bits > 12 || !offset_ok(grid.offset_x) || !offset_ok(grid.offset_y) ||
-        grid.rounding > GridRounding::truncate) {
+        grid.rounding > GridRounding::truncate || !has_triangles(draw)) {
       return Status::draw_grid;
     }
   }
-  if (draw.depth_bias && !(std::isfinite(draw.depth_bias->constant) && std::isfinite(draw.depth_bias->slope))) {
+  if (draw.depth_bias &&
+      !(std::isfinite(draw.depth_bias->constant) && std::isfinite(draw.depth_bias->slope) && has_triangles(draw))) {
     return Status::draw_depth_bias;
   }
+  if (draw.width && !(std::isfinite(*draw.width) && *draw.width > 0)) return Status::draw_width;
+  if (draw.primitive == Primitive::lines && !draw.width && target.samples != 1) return Status::draw_width;
   if (target.layers > 1 && !draw.depth_write) return Status::target_layers;
   if (draw.conservative > Conservative::touched) return Status::draw_conservative;
   if (draw.conservative != Conservative::none) {
     const Wanted wanted = wanted_outputs(target);
     if (wanted.shading || !target.depth.empty() || !target.winding.empty() || target.samples != 1 ||
-        draw.depth_mode != DepthMode::none || draw.grid) {
+        draw.depth_mode != DepthMode::none || draw.grid || !has_triangles(draw)) {
       return Status::draw_conservative;
     }
     if (target.layers > 1) return Status::target_layers;
@@ -270,7 +275,7 @@ const char* status_text(Status status) noexcept {
     case Status::draw_vertices:
       return "a draw's vertex buffer is null or too large";
     case Status::draw_indices:
-      return "a draw's indices are null, no multiple of 3, or too many";
+      return "a draw's indices are null, no multiple of 3 (of lines: of 2), or too many";
     case Status::draw_index_out_of_range:
       return "a draw has an index that names no vertex";
     case Status::draw_identifiers:
@@ -282,7 +287,7 @@ const char* status_text(Status status) noexcept {
     case Status::draw_attribute_interpolation:
       return "an attribute's interpolation is not an enumerator of Interpolation";
     case Status::draw_fill_rule:
-      return "a draw's fill rule is not an enumerator of FillRule, or is closed or open with a grid";
+      return "a draw's fill rule is not an enumerator of FillRule, or is closed or open with a grid, lines or points";
     case Status::draw_front_face:
       return "a draw's front face is not an enumerator of FrontFace";
     case Status::draw_cull:
@@ -291,9 +296,10 @@ const char* status_text(Status status) noexcept {
       return "a draw's depth mode is not an enumerator of DepthMode";
     case Status::draw_conservative:
       return "a draw's conservative mode is not an enumerator of Conservative, or the frame has more than count and "
-             "index, several samples, a depth mode or a grid";
+             "index, several samples, a depth mode, a grid, lines or points";
     case Status::draw_grid:
-      return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding";
+      return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding, or is of lines or "
+             "points";
     case Status::viewport:
       return "a number of the viewport is not finite, or an enumerator is unknown";
     case Status::options_threads:
@@ -323,11 +329,15 @@ const char* status_text(Status status) noexcept {
     case Status::target_winding:
       return "the winding buffer's size is not that of the target";
     case Status::draw_depth_bias:
-      return "a draw's depth bias is not finite";
+      return "a draw's depth bias is not finite, or is of lines or points";
     case Status::draw_covered:
       return "a draw's covered numbers are neither empty nor one for each triangle";
     case Status::draw_visible:
       return "a draw's visible numbers are neither empty nor one for each triangle, or a draw is conservative";
+    case Status::draw_primitive:
+      return "a draw's primitive is not an enumerator of Primitive";
+    case Status::draw_width:
+      return "a draw's width is not finite and above 0, or its lines have none where there are several samples";
   }
   return "unknown status";
 }

@@ -34,6 +34,8 @@ static_assert(static_cast<int>(Status::query_answers) == SUREFILL_QUERY_ANSWERS)
 static_assert(static_cast<int>(Status::bad_build) == SUREFILL_BAD_BUILD);
 static_assert(static_cast<int>(Status::target_outputs) == SUREFILL_TARGET_OUTPUTS);
 static_assert(static_cast<int>(Status::draw_visible) == SUREFILL_DRAW_VISIBLE);
+static_assert(static_cast<int>(Status::draw_width) == SUREFILL_DRAW_WIDTH);
+static_assert(static_cast<int>(Primitive::points) == SUREFILL_POINTS);
 static_assert(static_cast<int>(Status::visitor) == SUREFILL_VISITOR);
 static_assert(static_cast<int>(FillRule::open) == SUREFILL_OPEN);
 static_assert(static_cast<int>(DepthTest::greater_equal) == SUREFILL_GREATER_EQUAL);
@@ -285,6 +287,8 @@ class Arguments {
       std::copy_n(vertices_of(c.culling_box, 8).begin(), 8, draw.culling_box.emplace().begin());
     }
     if (c.depth_bias != nullptr) draw.depth_bias = DepthBias{c.depth_bias->constant, c.depth_bias->slope};
+    draw.primitive = enumerator<Primitive>(c.primitive);
+    if (c.width != 0) draw.width = c.width;
     draw.covered = {c.covered, c.covered_count};
     draw.visible = {c.visible, c.visible_count};
     const std::size_t listed = listed_attributes(c);

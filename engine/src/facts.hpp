@@ -79,8 +79,18 @@ inline float empty_depth(DepthTest test) {
 }
 
 // ---- of a draw
+// The vertices of each of its primitives; of what is no enumerator, 1.
+inline std::size_t corners_of(const DrawState& draw) {
+  return draw.primitive == Primitive::triangles ? 3 : draw.primitive == Primitive::lines ? 2 : 1;
+}
+
+// The number of its primitives, whatever they are.
 inline std::size_t triangles_of(const Draw& draw) {
-  return draw.indices.size() / 3;
+  return draw.indices.size() / corners_of(draw);
+}
+
+inline bool has_triangles(const DrawState& draw) {
+  return draw.primitive == Primitive::triangles;
 }
 
 // Target and scissor (M3), in pixels of space (S6).
@@ -112,7 +122,7 @@ inline bool culls(const DrawState& draw, int facing) {
 
 // ---- of a triangle, by its position in the draw
 inline std::uint32_t vertex_index(const Draw& draw, std::uint32_t position, std::size_t corner) {
-  return draw.indices[std::size_t{3} * position + corner];
+  return draw.indices[corners_of(draw) * position + corner];
 }
 
 inline const Vertex& vertex_of(const Draw& draw, std::uint32_t position, std::size_t corner) {
@@ -131,7 +141,7 @@ inline bool is_finite(const Vertex& v) {
 // B1, of the attributes alone: every component, whatever is asked for.
 inline bool attributes_are_finite(const Draw& draw, std::uint32_t position) {
   for (const AttributeArray& attribute : draw.attributes) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
+    for (std::size_t corner = 0; corner < corners_of(draw); ++corner) {
       const float* values = &attribute.values[vertex_index(draw, position, corner) * stride_of(attribute)];
       for (std::uint32_t c = 0; c < attribute.components; ++c) {
         if (!std::isfinite(values[c])) return false;
@@ -143,8 +153,10 @@ inline bool attributes_are_finite(const Draw& draw, std::uint32_t position) {
 
 // B1: if not, the triangle is dropped.
 inline bool is_finite(const Draw& draw, std::uint32_t position) {
-  return is_finite(vertex_of(draw, position, 0)) && is_finite(vertex_of(draw, position, 1)) &&
-         is_finite(vertex_of(draw, position, 2)) && attributes_are_finite(draw, position);
+  for (std::size_t corner = 0; corner < corners_of(draw); ++corner) {
+    if (!is_finite(vertex_of(draw, position, corner))) return false;
+  }
+  return attributes_are_finite(draw, position);
 }
 
 }  // namespace surefill

@@ -210,8 +210,6 @@ TEST(DecodeScene, WhatDoesNotFitIsRefused) {
   EXPECT_TRUE(refused([](Scene& s) { s.width = 17; }));
   EXPECT_TRUE(refused([](Scene& s) { s.samples = 16, s.width = 5; }));
   EXPECT_TRUE(refused([](Scene& s) { s.draws[0].scissor->x0 = 127; }));
-  EXPECT_TRUE(refused([](Scene& s) { s.draws[0].points.push_back({0, 1}); }));
-  EXPECT_TRUE(refused([](Scene& s) { s.draws[0].lines.push_back({{0, 1}, 1}); }));
   EXPECT_TRUE(refused([](Scene& s) { s.draws[1].culling_box->at(7).z = 1; }));
   EXPECT_TRUE(refused([](Scene& s) { s.draws[1].vertices.resize(kMaxVertices + 1); }));
   EXPECT_TRUE(refused([](Scene& s) { s.draws[1].triangles.resize(kMaxTriangles + 1); }));

@@ -58,7 +58,7 @@ namespace {
   for (const std::string& path : corpus::list_corpus(settings.corpus + "/cases")) {
     scenes->push_back(corpus::read_scene_file(path));
     for (const corpus::SceneDraw& draw : scenes->back().draws) {
-      if (!draw.points.empty() || !draw.lines.empty()) {  // have no rasterizer
+      if (draw.primitive != Primitive::triangles) {  // have no rasterizer
         scenes->pop_back();
         break;
       }

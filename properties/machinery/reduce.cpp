@@ -32,10 +32,6 @@ void drop_unused_vertices(SceneDraw& draw) {
   for (const auto& triangle : draw.triangles) {
     for (const std::uint32_t vertex : triangle.vertices) number[vertex] = 1;
   }
-  for (const auto& point : draw.points) number[point.vertex] = 1;
-  for (const auto& line : draw.lines) {
-    for (const std::uint32_t vertex : line.vertices) number[vertex] = 1;
-  }
   std::vector<SceneVertex> kept;
   for (std::size_t i = 0; i < number.size(); ++i) {
     if (number[i] == 0) continue;
@@ -45,10 +41,6 @@ void drop_unused_vertices(SceneDraw& draw) {
   draw.vertices = std::move(kept);
   for (auto& triangle : draw.triangles) {
     for (std::uint32_t& vertex : triangle.vertices) vertex = number[vertex];
-  }
-  for (auto& point : draw.points) point.vertex = number[point.vertex];
-  for (auto& line : draw.lines) {
-    for (std::uint32_t& vertex : line.vertices) vertex = number[vertex];
   }
 }
 
@@ -84,18 +76,6 @@ bool simpler_primitives(const Scene& scene, const Visit& visit) {
       for (std::size_t begin = 0; begin < total; begin += chunk) {
         if (visit(without_triangles(scene, d, begin, std::min(begin + chunk, total)))) return true;
       }
-    }
-    for (std::size_t i = 0; i < draw.points.size(); ++i) {
-      Scene simpler = scene;
-      erase_range(simpler.draws[d].points, i, i + 1);
-      drop_unused_vertices(simpler.draws[d]);
-      if (visit(std::move(simpler))) return true;
-    }
-    for (std::size_t i = 0; i < draw.lines.size(); ++i) {
-      Scene simpler = scene;
-      erase_range(simpler.draws[d].lines, i, i + 1);
-      drop_unused_vertices(simpler.draws[d]);
-      if (visit(std::move(simpler))) return true;
     }
   }
   return false;

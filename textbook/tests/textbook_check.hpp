@@ -127,7 +127,7 @@ inline std::vector<TriangleCase> corpus_triangles(std::int64_t largest_target, b
   for (const std::string& path : corpus::list_corpus(SUREFILL_CORPUS "/cases")) {
     const corpus::Scene scene = corpus::read_scene_file(path);
     const bool only_triangles = std::all_of(scene.draws.begin(), scene.draws.end(), [](const corpus::SceneDraw& d) {
-      return d.points.empty() && d.lines.empty();
+      return d.primitive == Primitive::triangles;
     });
     if (!only_triangles || static_cast<std::int64_t>(scene.width) * scene.height > largest_target) continue;
     const corpus::Frame frame(scene, kCountOnly);

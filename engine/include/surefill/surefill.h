@@ -59,18 +59,18 @@ typedef enum surefill_status {
   SUREFILL_TARGET_ATTRIBUTE_LOCATION,    /* not a surefill_attribute_location */
   SUREFILL_DRAWS,                        /* draws is null, and draw_count is not 0 */
   SUREFILL_DRAW_VERTICES,                /* vertices null or more than 2^32 - 1 */
-  SUREFILL_DRAW_INDICES,                 /* indices null, no multiple of 3, or more than 2^32 - 2 triangles */
+  SUREFILL_DRAW_INDICES,                 /* indices null, no multiple of 3 (lines: of 2), or over 2^32 - 2 triangles */
   SUREFILL_DRAW_INDEX_OUT_OF_RANGE,      /* an index that names no vertex */
   SUREFILL_DRAW_IDENTIFIERS,             /* neither 0 nor one for each triangle, or one is SUREFILL_NO_TRIANGLE [B5] */
   SUREFILL_DRAW_FIRST_INDEX,             /* first_index + triangles exceeds 2^32 - 1 [B5] */
   SUREFILL_DRAW_ATTRIBUTES,              /* fewer arrays than the target asks for, other components, or too short */
   SUREFILL_DRAW_ATTRIBUTE_INTERPOLATION, /* not a surefill_interpolation */
-  SUREFILL_DRAW_FILL_RULE,               /* not a surefill_fill_rule, or closed or open with a grid */
+  SUREFILL_DRAW_FILL_RULE,               /* not a surefill_fill_rule, or closed or open with a grid or lines */
   SUREFILL_DRAW_FRONT_FACE,              /* not a surefill_front_face */
   SUREFILL_DRAW_CULL,                    /* not a surefill_cull */
   SUREFILL_DRAW_DEPTH_MODE,              /* not a surefill_depth_mode */
-  SUREFILL_DRAW_CONSERVATIVE,            /* not a surefill_conservative, or with more than count asked for [M4] */
-  SUREFILL_DRAW_GRID,                    /* bits outside 0..12, an offset outside 0..15, or not a rounding */
+  SUREFILL_DRAW_CONSERVATIVE,            /* not a surefill_conservative, with too much asked for [M4], or of lines */
+  SUREFILL_DRAW_GRID,                    /* bits outside 0..12, an offset outside 0..15, no rounding, or of lines */
   SUREFILL_VIEWPORT,                     /* a viewport number that is not finite, or not an enumerator */
   SUREFILL_OPTIONS_THREADS,              /* threads outside 1..SUREFILL_MAX_THREADS (and not 0, which means 1) */
   SUREFILL_OPTIONS_PATH,                 /* not a surefill_path */
@@ -84,9 +84,11 @@ typedef enum surefill_status {
   SUREFILL_TARGET_SAMPLE_LOCATIONS, /* neither 0 nor one a sample, a place outside 0..15, or with a conservative draw */
   SUREFILL_TARGET_LAYERS,   /* above SUREFILL_MAX_LAYERS, or above 1 with depth write off or a conservative draw [V4] */
   SUREFILL_TARGET_WINDING,  /* neither 0 nor one a sample */
-  SUREFILL_DRAW_DEPTH_BIAS, /* a number that is not finite */
+  SUREFILL_DRAW_DEPTH_BIAS, /* a number that is not finite, or of lines or points */
   SUREFILL_DRAW_COVERED,    /* neither 0 nor one a triangle */
   SUREFILL_DRAW_VISIBLE,    /* the same, or with a conservative draw [M10] */
+  SUREFILL_DRAW_PRIMITIVE,  /* not a surefill_primitive */
+  SUREFILL_DRAW_WIDTH,      /* not finite, below 0, or 0 for lines of a target with several samples [M7] */
   /* Of this interface alone. */
   SUREFILL_NULL_TARGET = 1000,     /* target is null */
   SUREFILL_NULL_VIEWPORT,          /* viewport is null */
@@ -112,6 +114,9 @@ typedef enum surefill_fill_rule {
   SUREFILL_OPEN    /* none is [C5]; not with a grid */
 } surefill_fill_rule;
 
+/* What a draw consists of: of so many vertices each, 3, 2 or 1. What is said of triangles holds for lines and points too,
+ * where nothing else is said. They have no facing: nothing culls them, and they add 0 to winding. */
+typedef enum surefill_primitive { SUREFILL_TRIANGLES = 0, SUREFILL_LINES, SUREFILL_POINTS } surefill_primitive;
 /* Which facing is the front, as seen on the screen [F1]. */
 typedef enum surefill_front_face { SUREFILL_CLOCKWISE = 0, SUREFILL_COUNTER_CLOCKWISE } surefill_front_face;
 /* Which facing is not drawn [F2]. */
@@ -206,13 +211,14 @@ typedef struct surefill_attribute_array {
   uint32_t interpolation; /* surefill_interpolation */
 } surefill_attribute_array;
 
-/* Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2]. */
+/* Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2]; line t has
+ * indices[2t] and indices[2t + 1], point t has indices[t]. */
 typedef struct surefill_draw {
   size_t struct_size;              /* sizeof(surefill_draw); the same in all draws of a list */
   const surefill_vertex* vertices; /* the first; the next is vertex_stride bytes further on */
   size_t vertex_count;
   const uint32_t* indices;
-  size_t index_count;          /* three a triangle */
+  size_t index_count;          /* three a triangle, two a line, one a point */
   const uint32_t* identifiers; /* one a triangle, unique; or none: first_index + t [V2] */
   size_t identifier_count;
   const surefill_attribute_array* attributes; /* array k feeds target attribute k; more only take part in B1 */
@@ -233,6 +239,8 @@ typedef struct surefill_draw {
   size_t covered_count;
   uint64_t* visible; /* one a triangle: at how many it is the visible one, in layer 0, when all is drawn [M10] */
   size_t visible_count;
+  uint32_t primitive; /* surefill_primitive */
+  float width;        /* pixels: of lines, or the side of a point's square; 0: points of 1 pixel, and thin lines [M7] */
 } surefill_draw;
 
 /* An attribute image. Component c of sample s is values[s * components + c]. */

@@ -16,6 +16,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -147,8 +148,18 @@ inline float empty_depth(DepthTest test) {
 }
 
 // ---- of a draw
+// The vertices of each of its primitives; of what is no enumerator, 1.
+inline std::size_t corners_of(const DrawState& draw) {
+  return draw.primitive == Primitive::triangles ? 3 : draw.primitive == Primitive::lines ? 2 : 1;
+}
+
+// The number of its primitives, whatever they are.
 inline std::size_t triangles_of(const Draw& draw) {
-  return draw.indices.size() / 3;
+  return draw.indices.size() / corners_of(draw);
+}
+
+inline bool has_triangles(const DrawState& draw) {
+  return draw.primitive == Primitive::triangles;
 }
 
 // Target and scissor (M3), in pixels of space (S6).
@@ -180,7 +191,7 @@ inline bool culls(const DrawState& draw, int facing) {
 
 // ---- of a triangle, by its position in the draw
 inline std::uint32_t vertex_index(const Draw& draw, std::uint32_t position, std::size_t corner) {
-  return draw.indices[std::size_t{3} * position + corner];
+  return draw.indices[corners_of(draw) * position + corner];
 }
 
 inline const Vertex& vertex_of(const Draw& draw, std::uint32_t position, std::size_t corner) {
@@ -199,7 +210,7 @@ inline bool is_finite(const Vertex& v) {
 // B1, of the attributes alone: every component, whatever is asked for.
 inline bool attributes_are_finite(const Draw& draw, std::uint32_t position) {
   for (const AttributeArray& attribute : draw.attributes) {
-    for (std::size_t corner = 0; corner < 3; ++corner) {
+    for (std::size_t corner = 0; corner < corners_of(draw); ++corner) {
       const float* values = &attribute.values[vertex_index(draw, position, corner) * stride_of(attribute)];
       for (std::uint32_t c = 0; c < attribute.components; ++c) {
         if (!std::isfinite(values[c])) return false;
@@ -211,8 +222,10 @@ inline bool attributes_are_finite(const Draw& draw, std::uint32_t position) {
 
 // B1: if not, the triangle is dropped.
 inline bool is_finite(const Draw& draw, std::uint32_t position) {
-  return is_finite(vertex_of(draw, position, 0)) && is_finite(vertex_of(draw, position, 1)) &&
-         is_finite(vertex_of(draw, position, 2)) && attributes_are_finite(draw, position);
+  for (std::size_t corner = 0; corner < corners_of(draw); ++corner) {
+    if (!is_finite(vertex_of(draw, position, corner))) return false;
+  }
+  return attributes_are_finite(draw, position);
 }
 
 }  // namespace surefill_reference
@@ -715,10 +728,10 @@ inline int determinant_sign(const EdgeFunction& edge0, const Vertex& v0, Rungs* 
 
 }  // namespace surefill_reference
 
-// ---------------------------------------------------------------- src/exact/triangle.hpp
+// ---------------------------------------------------------------- src/exact/approximation.hpp
 //
-// One triangle set up for exact evaluation at samples: coverage (C2, C3), depth (I1, I5), attributes (I2, I3), each by
-// a filter in double and, where that cannot tell, by expansions.
+// Doubles with a bound of their error, and the float32 that is stored of a quotient (I4): by such bounds if they can tell,
+// else by exact arithmetic.
 
 
 
@@ -729,15 +742,6 @@ struct Approximation {
   double value, error;
 };
 
-// w0 e0 + w1 e1 + w2 e2 for exact weights. Three products and two sums: below 3 units of 2^-53 of the sum of absolute
-// terms; the bound has 8, which covers the rounding of the bound itself.
-inline Approximation weighted_sum(const double (&w)[3], const Approximation (&e)[3]) {
-  const double t0 = w[0] * e[0].value, t1 = w[1] * e[1].value, t2 = w[2] * e[2].value;
-  const double magnitude = (std::fabs(t0) + std::fabs(t1)) + std::fabs(t2);
-  const double inherited = (std::fabs(w[0]) * e[0].error + std::fabs(w[1]) * e[1].error) + std::fabs(w[2]) * e[2].error;
-  return {(t0 + t1) + t2, inherited + 0x1p-50 * magnitude};
-}
-
 // n / m. For real N, M: N/M - n/m = ((N - n) - (n/m)(M - m)) / M. Infinite error where M may be 0. The factor covers
 // the rounding of the bound.
 inline Approximation quotient(Approximation n, Approximation m) {
@@ -745,6 +749,43 @@ inline Approximation quotient(Approximation n, Approximation m) {
   if (!(smallest > 0)) return {0, std::numeric_limits<double>::infinity()};
   const double q = n.value / m.value;
   return {q, ((n.error + std::fabs(q) * m.error) / smallest + std::fabs(q) * 0x1p-52) * (1 + 0x1p-20)};
+}
+
+// The float32 of I4: by the filter if it can tell, else by `exact`.
+template <typename Exact>
+float rounded(Approximation q, Exact exact, Rungs* rungs = nullptr) {
+  float result;
+  if (round_interval(q.value - q.error, q.value + q.error, &result)) {
+    count(rungs, &Rungs::values_by_filter);
+    return result;
+  }
+  count(rungs, &Rungs::values_by_expansion);
+  return exact();
+}
+
+// A float32 as I4 stores it: -0 becomes +0.
+inline float stored(float value) {
+  return value + 0.0f;
+}
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/triangle.hpp
+//
+// One triangle set up for exact evaluation at samples: coverage (C2, C3), depth (I1, I5), attributes (I2, I3), each by
+// a filter in double and, where that cannot tell, by expansions.
+
+
+
+namespace surefill_reference {
+
+// w0 e0 + w1 e1 + w2 e2 for exact weights. Three products and two sums: below 3 units of 2^-53 of the sum of absolute
+// terms; the bound has 8, which covers the rounding of the bound itself.
+inline Approximation weighted_sum(const double (&w)[3], const Approximation (&e)[3]) {
+  const double t0 = w[0] * e[0].value, t1 = w[1] * e[1].value, t2 = w[2] * e[2].value;
+  const double magnitude = (std::fabs(t0) + std::fabs(t1)) + std::fabs(t2);
+  const double inherited = (std::fabs(w[0]) * e[0].error + std::fabs(w[1]) * e[1].error) + std::fabs(w[2]) * e[2].error;
+  return {(t0 + t1) + t2, inherited + 0x1p-50 * magnitude};
 }
 
 class Triangle {
@@ -916,9 +957,7 @@ class Triangle {
  private:
   static constexpr EdgeSet kAllEdges = 7;
 
-  static float value_of_vertex_0(const float (&u)[3]) {
-    return u[0] + 0.0f;  // -0 becomes +0 (I4)
-  }
+  static float value_of_vertex_0(const float (&u)[3]) { return stored(u[0]); }
 
   // The E_i at p; 0 for edges outside the set.
   void evaluate_edges(SamplePosition p, Approximation (&e)[3], EdgeSet set = kAllEdges) const {
@@ -999,18 +1038,6 @@ class Triangle {
     for (int i = 0; i < numerator.size(); ++i) rest.add(numerator.term(i));
     for (int i = 0; i < determinant_.size(); ++i) rest.add(-bound * determinant_.term(i));
     return rest;
-  }
-
-  // The float32 of I4: by the filter if it can tell, else by `exact`.
-  template <typename Exact>
-  static float rounded(Approximation q, Exact exact, Rungs* rungs = nullptr) {
-    float result;
-    if (round_interval(q.value - q.error, q.value + q.error, &result)) {
-      count(rungs, &Rungs::values_by_filter);
-      return result;
-    }
-    count(rungs, &Rungs::values_by_expansion);
-    return exact();
   }
 
   Vertex vertex_[3];
@@ -1137,11 +1164,308 @@ class SnappedTriangle {
 
 }  // namespace surefill_reference
 
+// ---------------------------------------------------------------- src/exact/line.hpp
+//
+// A line of a draw: the samples that it covers, wide or thin (M7), and its values there (I7). S is what is seen of it: a
+// segment or a ray, from its vertex 0 towards its vertex 1. Along the major axis t it has one point a coordinate.
+
+
+
+namespace surefill_reference {
+
+class Line {
+ public:
+  // False if it covers nothing: S is empty, or one point. Vertices are finite, the width too and above 0; without one the
+  // line is thin.
+  bool set_up(const Vertex& v0, const Vertex& v1, std::optional<float> width) {
+    edge_ = EdgeFunction(v0, v1);
+    thin_ = !width.has_value();
+    half_ = 0.5 * static_cast<double>(width.value_or(1.0f));
+    if ((edge_.a == 0 && edge_.b == 0) || !(v0.w > 0 || v1.w > 0)) return false;
+    x_major_ = along_x();
+    slope_ = x_major_ ? edge_.b : edge_.a;
+    forward_ = x_major_ ? sign_of(edge_.b) : -sign_of(edge_.a);  // S runs along (b, -a)
+    end_[0] = {x_major_ ? v0.x : v0.y, v0.w, v0.z}, end_[1] = {x_major_ ? v1.x : v1.y, v1.w, v1.z};
+    return true;
+  }
+
+  bool x_major() const { return x_major_; }
+  bool thin() const { return thin_; }
+  double half_width() const { return half_; }
+  const EdgeFunction& edge() const { return edge_; }
+
+  bool covers(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const {
+    if (side(p, +1, shift, rungs) < 0 || side(p, -1, shift, rungs) > 0) return false;
+    if (!thin_) return within_ends(p, shift);
+    return !ends_in_diamond(1, p, shift) && (ends_in_diamond(0, p, shift) || within_ends(p, shift));
+  }
+
+  // Has S a point with the major coordinate of the moved sample?
+  bool within_ends(SamplePosition p, TieShift shift) const {
+    const double t = along(p);
+    const int step = x_major_ ? shift.x : shift.y;
+    for (int i = 0; i < 2; ++i) {
+      if (!(end_[i].w > 0)) continue;
+      const int after = t * end_[i].w == end_[i].t  ? step
+                        : t * end_[i].w > end_[i].t ? 1
+                                                    : -1;  // exact: 27 and 24 bits
+      if (after * forward_ != (i == 0 ? 1 : -1)) return false;
+    }
+    return true;
+  }
+
+  // Is the sample so far from both ends, along the major axis, that neither lies in its diamond?
+  bool far_from_ends(SamplePosition p) const {
+    for (const End& end : end_) {
+      if (end.w > 0 && !(std::fabs(along(p) * end.w - end.t) > end.w)) return false;
+    }
+    return true;
+  }
+
+  // The pixels of `limits` that it can cover. Sample offsets within a pixel lie in [least_offset, largest_offset].
+  PixelBox box(PixelBox limits, double least_offset, double largest_offset) const {
+    const Vertex &v0 = edge_.from, &v1 = edge_.to;
+    const double w[3] = {v0.w, v1.w, v1.w};
+    clip_to_reach(widened(reach({v0.x, v1.x, v1.x}, w)), least_offset, largest_offset, &limits.x0, &limits.x1);
+    clip_to_reach(widened(reach({v0.y, v1.y, v1.y}, w)), least_offset, largest_offset, &limits.y0, &limits.y1);
+    return limits;
+  }
+
+  // Depth as it is stored; false if depth clipping removes the fragment (I5).
+  bool depth(SamplePosition p, DepthMode mode, float* to, Rungs* rungs = nullptr) const {
+    const Mix mix = mix_at(p, end_[0].z, end_[1].z);
+    const Approximation q = quotient(mix.sum(), mix.determinant());
+    if (mode == DepthMode::clip) {
+      const double low = q.value - q.error, high = q.value + q.error;
+      if (high < 0 || low > 1) return false;
+      if (!(low > 0 && high < 1) && !inside_unit_range(mix)) return false;
+    }
+    *to = rounded(
+        q, [&] { return round_quotient(mix.exact_sum(), mix.exact_determinant()); }, rungs);
+    if (mode == DepthMode::clamp) *to = *to < 0 ? 0.0f : *to > 1 ? 1.0f : *to;  // rounding is monotonic
+    return true;
+  }
+
+  // An attribute at p as I4 stores it, from its values at the two vertices.
+  float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs = nullptr) const {
+    if (interpolation == Interpolation::flat) return stored(u[0]);
+    if (interpolation == Interpolation::perspective) {
+      const Mix mix = mix_at(p, u[0], u[1]);
+      return rounded(
+          quotient(mix.sum(), mix.weights()), [&] { return round_quotient(mix.exact_sum(), mix.exact_weights()); },
+          rungs);
+    }
+    const Mix mix = mix_at(p, static_cast<double>(u[0]) * end_[0].w, static_cast<double>(u[1]) * end_[1].w);  // 48 bits
+    return rounded(
+        quotient(mix.sum(), mix.determinant()),
+        [&] { return round_quotient(mix.exact_sum(), mix.exact_determinant()); }, rungs);
+  }
+
+ private:
+  struct End {
+    double t, w, z;  // the major coordinate times W
+  };
+
+  // n_0 v_0 + n_1 v_1 for I7's k_i = n_i / determinant: n_0 = a_0 - b_0 and n_1 = a_1 - b_1, of doubles. One of the
+  // n_i may be 0, and none has another sign than the determinant d_0 - d_1.
+  struct Mix {
+    double a[2], b[2], d[2], v[2];
+
+    Approximation sum() const {
+      const double s0 = (a[0] - b[0]) * v[0], s1 = (a[1] - b[1]) * v[1];
+      return {s0 + s1, 0x1p-50 * (std::fabs(s0) + std::fabs(s1))};
+    }
+    Approximation weights() const {
+      const double sum = (a[0] - b[0]) + (a[1] - b[1]);
+      return {sum, 0x1p-51 * std::fabs(sum)};
+    }
+    Approximation determinant() const {
+      const double difference = d[0] - d[1];
+      return {difference, 0x1p-52 * std::fabs(difference)};
+    }
+    Expansion<8> exact_sum() const {
+      Expansion<8> sum;
+      for (int i = 0; i < 2; ++i) sum.add_product(a[i], v[i]), sum.add_product(-b[i], v[i]);
+      return sum;
+    }
+    Expansion<4> exact_weights() const {
+      Expansion<4> sum;
+      for (int i = 0; i < 2; ++i) sum.add(a[i]), sum.add(-b[i]);
+      return sum;
+    }
+    Expansion<2> exact_determinant() const {
+      Expansion<2> difference;
+      difference.add(d[0]), difference.add(-d[1]);
+      return difference;
+    }
+  };
+
+  double along(SamplePosition p) const { return x_major_ ? p.x : p.y; }
+
+  // |dx| >= |dy| of S's direction (b, -a)? Rounding is monotonic, so only equal numbers have to be looked at.
+  bool along_x() const {
+    const double a = std::fabs(edge_.a), b = std::fabs(edge_.b);
+    if (a != b || edge_.exact) return b >= a;
+    const double sa = sign_of(edge_.a), sb = sign_of(edge_.b);
+    const double jx = edge_.from.x, jy = edge_.from.y, jw = edge_.from.w;
+    const double kx = edge_.to.x, ky = edge_.to.y, kw = edge_.to.w;
+    Expansion<4> difference;
+    difference.add(sb * (jw * kx)), difference.add(-sb * (jx * kw));
+    difference.add(-sa * (jy * kw)), difference.add(sa * (jw * ky));
+    return difference.sign() >= 0;
+  }
+
+  // The sign of E + s |m| w/2 at the moved sample, m the coefficient of the minor coordinate: the line is wider than its
+  // distance from the sample where it is not s's opposite, for both s.
+  int side(SamplePosition p, int s, TieShift shift, Rungs* rungs) const {
+    double bound;
+    const double value = edge_.value(p, &bound), half = s * std::fabs(slope_) * half_;
+    const double estimate = value + half;
+    if (std::fabs(estimate) > (bound + 0x1p-50 * std::fabs(half)) * (1 + 0x1p-20) + 0x1p-52 * std::fabs(value)) {
+      count(rungs, &Rungs::signs_by_filter);
+      return sign_of(estimate);
+    }
+    count(rungs, &Rungs::signs_by_expansion);
+    Expansion<14> exact(edge_.exact_value(p));
+    const double factor = s * sign_of(slope_) * half_;
+    const double jx = edge_.from.x, jy = edge_.from.y, jw = edge_.from.w;
+    const double kx = edge_.to.x, ky = edge_.to.y, kw = edge_.to.w;
+    exact.add_product(x_major_ ? jw * kx : jy * kw, factor);
+    exact.add_product(x_major_ ? -(jx * kw) : -(jw * ky), factor);
+    return exact.sign() != 0 ? exact.sign() : tie_sign(edge_.a, edge_.b, shift);
+  }
+
+  // Does S have an end at vertex i that lies in the open diamond around the moved sample?
+  bool ends_in_diamond(int i, SamplePosition p, TieShift shift) const {
+    const Vertex& v = i == 0 ? edge_.from : edge_.to;
+    if (!(v.w > 0)) return false;
+    const double w = v.w, half = 0.5 * w;
+    const double u = std::fabs(v.x - p.x * w) + std::fabs(v.y - p.y * w);  // three roundings; the products are exact
+    if (std::fabs(u - half) > 0x1p-50 * (u + half)) return u < half;
+    for (const int sx : {-1, 1}) {
+      for (const int sy : {-1, 1}) {
+        Expansion<5> exact;
+        exact.add(sx * static_cast<double>(v.x)), exact.add(-sx * (p.x * w));
+        exact.add(sy * static_cast<double>(v.y)), exact.add(-sy * (p.y * w));
+        exact.add(-half);
+        const int moved = shift.y_dominates ? -sy * shift.y : -sx * shift.x;
+        if ((exact.sign() != 0 ? exact.sign() : moved) > 0) return false;
+      }
+    }
+    return true;
+  }
+
+  Reach widened(Reach r) const {
+    const double low = r.low - half_, high = r.high + half_;
+    return {low - 0x1p-50 * (std::fabs(low) + half_), high + 0x1p-50 * (std::fabs(high) + half_)};
+  }
+
+  // I7 at p for values v_0 and v_1: at the point of S that has p's major coordinate, or at the nearest end.
+  Mix mix_at(SamplePosition p, double v0, double v1) const {
+    const double t = along(p), tw0 = t * end_[0].w, tw1 = t * end_[1].w;  // exact: 27 and 24 bits
+    // The determinant t_0 W_1 - t_1 W_0 has the sign of -forward, n_0 = t W_1 - t_1, n_1 = t_0 - t W_0.
+    const int n0 = sign_of(tw1 - end_[1].t), n1 = sign_of(end_[0].t - tw0);
+    if (end_[0].w > 0 && n1 * forward_ > 0) return {{1, 0}, {0, 0}, {end_[0].w, 0}, {v0, v1}};
+    if (end_[1].w > 0 && n0 * forward_ > 0) return {{0, 1}, {0, 0}, {end_[1].w, 0}, {v0, v1}};
+    return {{tw1, end_[0].t}, {end_[1].t, tw0}, {end_[0].t * end_[1].w, end_[1].t * end_[0].w}, {v0, v1}};
+  }
+
+  // 0 <= sum / determinant <= 1, exactly.
+  static bool inside_unit_range(const Mix& mix) {
+    const Expansion<8> sum = mix.exact_sum();
+    const Expansion<2> determinant = mix.exact_determinant();
+    if (sum.sign() * determinant.sign() < 0) return false;
+    Expansion<10> rest(sum);
+    rest.add(-determinant.term(0));
+    if (determinant.size() > 1) rest.add(-determinant.term(1));
+    return rest.sign() * determinant.sign() <= 0;
+  }
+
+  EdgeFunction edge_;
+  bool thin_ = false, x_major_ = true;
+  int forward_ = 1;    // does t grow along S?
+  double half_ = 0.5;  // of the width
+  double slope_ = 0;   // the edge's coefficient of the minor coordinate
+  End end_[2] = {};
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/exact/point.hpp
+//
+// A point of a draw: the square of samples that it covers (M7), and its values (I6).
+
+
+
+namespace surefill_reference {
+
+class Point {
+ public:
+  // False if it covers nothing. The vertex is finite; the size is finite and above 0.
+  bool set_up(const Vertex& v, float size) {
+    vertex_ = v;
+    half_ = 0.5 * static_cast<double>(size) * v.w;  // of the side, times W: 48 bits, exact
+    return v.w > 0;
+  }
+
+  bool covers(SamplePosition p, TieShift shift) const {
+    return covers(p.x, vertex_.x, shift.x) && covers(p.y, vertex_.y, shift.y);
+  }
+
+  // The pixels of `limits` that it can cover. Sample offsets within a pixel lie in [least_offset, largest_offset].
+  PixelBox box(PixelBox limits, double least_offset, double largest_offset) const {
+    clip_to_reach(reach_of(vertex_.x), least_offset, largest_offset, &limits.x0, &limits.x1);
+    clip_to_reach(reach_of(vertex_.y), least_offset, largest_offset, &limits.y0, &limits.y1);
+    return limits;
+  }
+
+  // Depth as it is stored; false if depth clipping removes the fragments (I5).
+  bool depth(DepthMode mode, float* to) const {
+    const double z = vertex_.z, w = vertex_.w;
+    if (mode == DepthMode::clip && (z < 0 || z > w)) return false;
+    const double q = z / w;
+    *to = rounded({q, std::fabs(q) * 0x1p-52}, [&] {
+      Expansion<1> numerator, denominator;
+      numerator.add(z), denominator.add(w);
+      return round_quotient(numerator, denominator);
+    });
+    if (mode == DepthMode::clamp) *to = *to < 0 ? 0.0f : *to > 1 ? 1.0f : *to;  // rounding is monotonic
+    return true;
+  }
+
+ private:
+  // |p' - c/W| < s/2 along one axis, on which a sample is moved by `step`. p W is exact: 27 and 24 bits.
+  bool covers(double p, double c, int step) const {
+    return sign(p * vertex_.w, -c, -half_, step) < 0 && sign(p * vertex_.w, -c, half_, step) > 0;
+  }
+
+  // Of a + b + c, where a moves by an infinitely small part of `step`.
+  static int sign(double a, double b, double c, int step) {
+    const double sum = (a + b) + c;
+    if (std::fabs(sum) > 0x1p-51 * ((std::fabs(a) + std::fabs(b)) + std::fabs(c))) return sign_of(sum);
+    Expansion<3> exact;
+    exact.add(a), exact.add(b), exact.add(c);
+    return exact.sign() != 0 ? exact.sign() : step;
+  }
+
+  // A little more than what it covers along an axis.
+  Reach reach_of(double c) const {
+    const double centre = c / vertex_.w, half = half_ / vertex_.w;
+    const double margin = half + 0x1p-50 * (std::fabs(centre) + half);
+    return {centre - margin, centre + margin};
+  }
+
+  Vertex vertex_;
+  double half_ = 0;
+};
+
+}  // namespace surefill_reference
+
 // ---------------------------------------------------------------- src/exact/exact_draw.hpp
 //
-// A triangle of a draw, as its mode has it: what it covers, and the values there, by the scalar arithmetic of Triangle
-// and SnappedTriangle. All that the reference path draws with, and what the vector code asks where it cannot tell.
-// Compiled once, and not for each instruction set; it keeps the triangle that was asked about last.
+// A primitive of a draw, as its mode has it: what it covers, and the values there, by the scalar arithmetic of Triangle,
+// SnappedTriangle, Line and Point. All that the reference path draws with, and what the vector code asks where it cannot tell.
+// Compiled once, and not for each instruction set; it keeps the one that was asked about last.
 
 
 
@@ -1159,8 +1483,8 @@ class ExactDraw {
   // Pixels and places are those of space; the origin is the target's (S6), which Grid alone looks at.
   explicit ExactDraw(Origin origin = {}) : origin_(origin) {}
 
-  // The triangle at a position in the draw, whose vertices are finite (B1). False if it covers nothing by C1 (but for
-  // M4b) or, under Grid, by G1. Everything below is about it.
+  // The primitive at a position in the draw, whose vertices are finite (B1). False if it covers nothing: a triangle by C1
+  // (but for M4b) or, under Grid, by G1, a line or a point by M7. Everything below is about it.
   bool use(const Draw& draw, std::uint32_t position, Rungs* rungs = nullptr);
 
   // The pixels of `limits` that it can cover. Sample offsets within a pixel lie in [least_offset, largest_offset].
@@ -1171,10 +1495,12 @@ class ExactDraw {
   // Coverage as M2 counts it, but for scissor and depth clip: covered, and not culled (F2).
   bool draws(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const {
     const int side = facing(p, shift, rungs);
-    return side != 0 && !culls(*draw_, side);
+    return side != 0 && !(has_triangles(*draw_) && culls(*draw_, side));
   }
   bool draws_square(int x, int y, Rungs* rungs = nullptr) const;  // M4, M4a, M4b
-  // Does it face front there, where it draws (F1; under Grid G1)?
+  // Is it a triangle that is culled whole (F2)? Under Grid that is a matter of the sample (G1).
+  bool is_culled() const { return has_triangles(*draw_) && !draw_->grid && culls(*draw_, triangle_.determinant()); }
+  // Does the triangle face front there, where it draws (F1; under Grid G1)?
   bool is_front(SamplePosition p, TieShift shift, Rungs* rungs = nullptr) const {
     return faces_front(*draw_, facing(p, shift, rungs));
   }
@@ -1187,15 +1513,19 @@ class ExactDraw {
   SamplePosition place_of_attributes(const Target& target, int x, int y, TieShift shift) const;
   float attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs = nullptr);
 
+  const Line& line() const { return line_; }              // of a draw of lines
   const Triangle& triangle() const { return triangle_; }  // without Grid only
   SnappedTriangle& snapped() { return snapped_; }         // under Grid only
 
  private:
-  // 0 if it does not cover p; else the sign of D or, under Grid, of N(p).
+  // 0 if it does not cover p; else the sign of D or, under Grid, of N(p); of a line or a point 1.
   int facing(SamplePosition p, TieShift shift, Rungs* rungs) const {
+    if (!has_triangles(*draw_)) return is_line() ? line_.covers(p, shift, rungs) : point_.covers(p, shift);
     if (draw_->grid) return snapped_.winding(p, shift);
     return triangle_.covers(p, shift, rungs) ? triangle_.determinant() : 0;
   }
+
+  bool is_line() const { return draw_->primitive == Primitive::lines; }
 
   Origin origin_;
   const Draw* draw_ = nullptr;
@@ -1203,6 +1533,8 @@ class ExactDraw {
   bool covers_something_ = false;
   Triangle triangle_;        // without Grid
   SnappedTriangle snapped_;  // and with Grid
+  Line line_;
+  Point point_;
 };
 
 }  // namespace surefill_reference
@@ -2000,6 +2332,12 @@ bool is_degenerate(const Draw& draw, std::uint32_t position) {
 bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
   if (draw_ == &draw && position_ == position) return covers_something_;
   draw_ = &draw, position_ = position;
+  if (!has_triangles(draw)) {
+    const Vertex& v = vertex_of(draw, position, 0);
+    covers_something_ = is_line() ? line_.set_up(v, vertex_of(draw, position, 1), draw.width)
+                                  : point_.set_up(v, draw.width.value_or(1.0f));
+    return covers_something_;
+  }
   const Vertex &v0 = vertex_of(draw, position, 0), &v1 = vertex_of(draw, position, 1),
                &v2 = vertex_of(draw, position, 2);
   covers_something_ = draw.grid ? snapped_.set_up(v0, v1, v2, *draw.grid, rungs, origin_)
@@ -2008,6 +2346,10 @@ bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
 }
 
 PixelBox ExactDraw::box(const PixelBox& limits, double least_offset, double largest_offset) const {
+  if (!has_triangles(*draw_)) {
+    return is_line() ? line_.box(limits, least_offset, largest_offset)
+                     : point_.box(limits, least_offset, largest_offset);
+  }
   if (draw_->grid) return snapped_.box(limits, least_offset, largest_offset);
   const bool squares = draw_->conservative != Conservative::none;
   return screen_box(triangle_.vertex(0), triangle_.vertex(1), triangle_.vertex(2), limits, squares ? 0 : least_offset,
@@ -2028,10 +2370,14 @@ bool ExactDraw::draws_square(int x, int y, Rungs* rungs) const {
 }
 
 bool ExactDraw::depth(SamplePosition p, float* stored, Rungs* rungs) {
+  if (!has_triangles(*draw_)) {
+    return is_line() ? line_.depth(p, draw_->depth_mode, stored, rungs) : point_.depth(draw_->depth_mode, stored);
+  }
   return draw_->grid ? snapped_.depth(p, *draw_, stored, rungs) : triangle_.depth(p, *draw_, stored, rungs);
 }
 
 bool ExactDraw::has_values(SamplePosition p) const {
+  if (!has_triangles(*draw_)) return true;  // I6, I7: everywhere
   return draw_->grid ? snapped_.has_weights(p) : triangle_.plane_in_front(p);
 }
 
@@ -2048,6 +2394,7 @@ SamplePosition ExactDraw::place_of_attributes(const Target& target, int x, int y
 }
 
 float ExactDraw::attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs) {
+  if (!has_triangles(*draw_)) return is_line() ? line_.attribute(p, u, interpolation, rungs) : surefill_reference::stored(u[0]);
   return draw_->grid ? snapped_.attribute(p, u, interpolation, rungs) : triangle_.attribute(p, u, interpolation, rungs);
 }
 
@@ -2098,7 +2445,8 @@ bool DrawFragments::counts(Fragment& f) {
 
 bool DrawFragments::counts_of_covered(Fragment& f) {
   if (draw_.conservative == Conservative::overlap) return counts(f);
-  return layers_ == nullptr || triangle_.depth(place_of(f), &f.z, &rungs_);
+  const bool clips = draw_.depth_mode == DepthMode::clip && !has_triangles(draw_);  // a stream is clipped already
+  return (layers_ == nullptr && !clips) || triangle_.depth(place_of(f), &f.z, &rungs_);
 }
 
 void DrawFragments::take(const Fragment& f) {
@@ -2107,7 +2455,7 @@ void DrawFragments::take(const Fragment& f) {
   if (!draw_.covered.empty()) {  // the triangle may be met on other threads too
     std::atomic_ref(draw_.covered[f.position]).fetch_add(1, std::memory_order_relaxed);
   }
-  if (!target_.winding.empty()) {  // M9, modulo 2^32
+  if (!target_.winding.empty() && has_triangles(draw_)) {  // M9, modulo 2^32
     const std::uint32_t one = triangle_.is_front(place_of(f), shift_, &rungs_) ? 1u : 0xFFFFFFFFu;
     target_.winding[s] = static_cast<std::int32_t>(static_cast<std::uint32_t>(target_.winding[s]) + one);
   }
@@ -2160,8 +2508,9 @@ void DrawFragments::shade(std::uint32_t position, int x, int y, std::size_t plac
     if (out.values.empty()) continue;
     const AttributeArray& in = draw_.attributes[k];
     for (std::size_t c = 0; c < out.components; ++c) {
-      float u[3];
-      for (std::size_t i = 0; i < 3; ++i) u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
+      float u[3] = {};
+      for (std::size_t i = 0; i < corners_of(draw_); ++i)
+        u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
       out.values[place * out.components + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
     }
   }
@@ -2491,9 +2840,10 @@ bool indices_in_range(const Draw& draw) {
 }
 
 Status validate_draw(const Target& target, const Draw& draw, const Outputs& outputs) {
+  if (draw.primitive > Primitive::points) return Status::draw_primitive;
   const std::uint64_t vertices = draw.vertices.size(), triangles = triangles_of(draw);
   if (null_but_not_empty(draw.vertices) || vertices > kLargestIndex) return Status::draw_vertices;
-  if (null_but_not_empty(draw.indices) || draw.indices.size() % 3 != 0 || triangles >= kLargestIndex) {
+  if (null_but_not_empty(draw.indices) || draw.indices.size() % corners_of(draw) != 0 || triangles >= kLargestIndex) {
     return Status::draw_indices;
   }
   if (!draw.identifiers.empty() && (draw.identifiers.data() == nullptr || draw.identifiers.size() != triangles)) {
@@ -2502,7 +2852,8 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
   if (has_no_triangle(draw.identifiers)) return Status::draw_identifiers;
   if (draw.identifiers.empty() && triangles > kLargestIndex - draw.first_index) return Status::draw_first_index;
   if (const Status status = validate_attributes(target, draw); status != Status::ok) return status;
-  if (draw.fill_rule > FillRule::open || (draw.grid && !moves_samples(draw.fill_rule))) return Status::draw_fill_rule;
+  const bool needs_step = draw.grid || !has_triangles(draw);
+  if (draw.fill_rule > FillRule::open || (needs_step && !moves_samples(draw.fill_rule))) return Status::draw_fill_rule;
   if (draw.front_face > FrontFace::counter_clockwise) return Status::draw_front_face;
   if (draw.cull > Cull::back) return Status::draw_cull;
   if (draw.depth_mode > DepthMode::clamp) return Status::draw_depth_mode;
@@ -2510,19 +2861,22 @@ Status validate_draw(const Target& target, const Draw& draw, const Outputs& outp
     const Grid& grid = *draw.grid;
     const auto offset_ok = [](int offset) { return offset >= 0 && offset <= 15; };
     if (grid.bits < 0 || grid.bits > 12 || !offset_ok(grid.offset_x) || !offset_ok(grid.offset_y) ||
-        grid.rounding > GridRounding::truncate) {
+        grid.rounding > GridRounding::truncate || !has_triangles(draw)) {
       return Status::draw_grid;
     }
   }
-  if (draw.depth_bias && !(std::isfinite(draw.depth_bias->constant) && std::isfinite(draw.depth_bias->slope))) {
+  if (draw.depth_bias &&
+      !(std::isfinite(draw.depth_bias->constant) && std::isfinite(draw.depth_bias->slope) && has_triangles(draw))) {
     return Status::draw_depth_bias;
   }
+  if (draw.width && !(std::isfinite(*draw.width) && *draw.width > 0)) return Status::draw_width;
+  if (draw.primitive == Primitive::lines && !draw.width && target.samples != 1) return Status::draw_width;
   if (target.layers > 1 && !draw.depth_write) return Status::target_layers;
   if (draw.conservative > Conservative::touched) return Status::draw_conservative;
   if (draw.conservative != Conservative::none) {
     const Wanted wanted = wanted_outputs(target);
     if (wanted.shading || !target.depth.empty() || !target.winding.empty() || target.samples != 1 ||
-        draw.depth_mode != DepthMode::none || draw.grid) {
+        draw.depth_mode != DepthMode::none || draw.grid || !has_triangles(draw)) {
       return Status::draw_conservative;
     }
     if (target.layers > 1) return Status::target_layers;
@@ -2626,7 +2980,7 @@ const char* status_text(Status status) noexcept {
     case Status::draw_vertices:
       return "a draw's vertex buffer is null or too large";
     case Status::draw_indices:
-      return "a draw's indices are null, no multiple of 3, or too many";
+      return "a draw's indices are null, no multiple of 3 (of lines: of 2), or too many";
     case Status::draw_index_out_of_range:
       return "a draw has an index that names no vertex";
     case Status::draw_identifiers:
@@ -2638,7 +2992,7 @@ const char* status_text(Status status) noexcept {
     case Status::draw_attribute_interpolation:
       return "an attribute's interpolation is not an enumerator of Interpolation";
     case Status::draw_fill_rule:
-      return "a draw's fill rule is not an enumerator of FillRule, or is closed or open with a grid";
+      return "a draw's fill rule is not an enumerator of FillRule, or is closed or open with a grid, lines or points";
     case Status::draw_front_face:
       return "a draw's front face is not an enumerator of FrontFace";
     case Status::draw_cull:
@@ -2647,9 +3001,10 @@ const char* status_text(Status status) noexcept {
       return "a draw's depth mode is not an enumerator of DepthMode";
     case Status::draw_conservative:
       return "a draw's conservative mode is not an enumerator of Conservative, or the frame has more than count and "
-             "index, several samples, a depth mode or a grid";
+             "index, several samples, a depth mode, a grid, lines or points";
     case Status::draw_grid:
-      return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding";
+      return "a draw's grid has bits outside 0..12, an offset outside 0..15 or an unknown rounding, or is of lines or "
+             "points";
     case Status::viewport:
       return "a number of the viewport is not finite, or an enumerator is unknown";
     case Status::options_threads:
@@ -2679,11 +3034,15 @@ const char* status_text(Status status) noexcept {
     case Status::target_winding:
       return "the winding buffer's size is not that of the target";
     case Status::draw_depth_bias:
-      return "a draw's depth bias is not finite";
+      return "a draw's depth bias is not finite, or is of lines or points";
     case Status::draw_covered:
       return "a draw's covered numbers are neither empty nor one for each triangle";
     case Status::draw_visible:
       return "a draw's visible numbers are neither empty nor one for each triangle, or a draw is conservative";
+    case Status::draw_primitive:
+      return "a draw's primitive is not an enumerator of Primitive";
+    case Status::draw_width:
+      return "a draw's width is not finite and above 0, or its lines have none where there are several samples";
   }
   return "unknown status";
 }
@@ -2709,8 +3068,7 @@ void traverse(const Target& target, const Draw& draw, DrawFragments& fragments, 
   for (std::size_t t = 0; t < triangles_of(draw); ++t) {
     const auto position = static_cast<std::uint32_t>(t);
     if (region.empty() || !is_finite(draw, position) || !fragments.triangle().use(draw, position, &rungs)) continue;
-    // Under Grid facing is a matter of the sample (G1).
-    if (!draw.grid && culls(draw, fragments.triangle().triangle().determinant())) continue;
+    if (fragments.triangle().is_culled()) continue;
     PixelBox box = fragments.triangle().box(region, least, largest);
     if (box.empty()) continue;
     box = {box.x0 - o.x, box.y0 - o.y, box.x1 - o.x, box.y1 - o.y};
@@ -2783,8 +3141,10 @@ Statistics statistics_of(std::span<const Draw> draws) noexcept {
         ++sum.dropped;
         continue;
       }
-      const int sign = orientation(draw, position);
-      if (sign == 0 && is_degenerate(draw, position)) {
+      const int sign = has_triangles(draw) ? orientation(draw, position) : 0;
+      if (!has_triangles(draw)) {
+        ++(ExactDraw().use(draw, position) ? sum.rasterized : sum.degenerate);
+      } else if (sign == 0 && is_degenerate(draw, position)) {
         ++sum.degenerate;
       } else if (!draw.grid && culls(draw, sign)) {
         ++sum.culled;

@@ -55,6 +55,8 @@
 //            are the real value, rounded once [I4]. The same bits on every machine, compiler and thread count,
 //            whatever floating-point modes the caller has set; they and the exception flags are the caller's again
 //            afterwards, and while a visitor or an executor runs [B4].
+// Primitives Triangles, lines or points, one kind a draw [M7, I6, I7]. What is said of triangles below holds for lines and
+//            points too, where nothing else is said.
 // Limits     Targets of 1..16384 pixels each way [S5], 2^32 - 2 triangles a draw, kMaxAttributes attribute arrays of at
 //            most kMaxComponents floats.
 // Errors     Nothing throws, prints or aborts. A Status names the argument at fault; then nothing was written [B2].
@@ -111,35 +113,40 @@ enum class Status : std::uint32_t {
   target_attribute_location,  // not an enumerator of AttributeLocation
   draws,                      // the list of draws is null but not empty
   draw_vertices,              // a null vertex buffer that is not empty, or more than 2^32 - 1 vertices
-  draw_indices,               // a null index buffer, a size that is no multiple of 3, or more than 2^32 - 2 triangles
-  draw_index_out_of_range,    // an index that names no vertex
-  draw_identifiers,           // neither empty nor one for each triangle, or one is kNoTriangle [B5]
-  draw_first_index,           // first_index + triangles exceeds 2^32 - 1: a triangle's index reaches kNoTriangle [B5]
-  draw_attributes,            // fewer arrays than the target asks for, other components, or too short an array
+  draw_indices,             // a null index buffer, a size that is no multiple of 3 (lines: of 2), or more than 2^32 - 2
+                            // triangles
+  draw_index_out_of_range,  // an index that names no vertex
+  draw_identifiers,         // neither empty nor one for each triangle, or one is kNoTriangle [B5]
+  draw_first_index,         // first_index + triangles exceeds 2^32 - 1: a triangle's index reaches kNoTriangle [B5]
+  draw_attributes,          // fewer arrays than the target asks for, other components, or too short an array
   draw_attribute_interpolation,  // not an enumerator of Interpolation
-  draw_fill_rule,                // not an enumerator of FillRule, or closed or open with a Grid [C5]
-  draw_front_face,               // not an enumerator of FrontFace
-  draw_cull,                     // not an enumerator of Cull
-  draw_depth_mode,               // not an enumerator of DepthMode
-  draw_conservative,             // not an enumerator of Conservative, or in a frame that asks for more than count and
-                                 // index, or with several samples, a depth mode or a Grid [M4]
-  draw_grid,                     // bits outside 0..12, an offset outside 0..15, or not an enumerator of GridRounding
-  viewport,                      // a viewport number that is not finite
-  options_threads,               // a number of threads outside 1..kMaxThreads
-  options_path,                  // not an enumerator of Path
-  query_boxes,                   // of an occlusion query: null but not empty, or a number that is not finite
-  query_answers,                 // null but not empty, or not one for each box
-  visitor,                       // of visit_coverage: its function is null
-  bad_build,                     // the library was compiled with options that break exact arithmetic (docs/library.md)
-  to_pixel_vertices,             // of to_pixel: vertices or out are null but not empty, of two sizes, or overlap
-  target_outputs,                // of visit_coverage: the target asks for an output, or for layers
-  target_origin,                 // |x| or |y| above kMaxOrigin
+  draw_fill_rule,           // not an enumerator of FillRule, or closed or open with a Grid [C5], lines or points [M7]
+  draw_front_face,          // not an enumerator of FrontFace
+  draw_cull,                // not an enumerator of Cull
+  draw_depth_mode,          // not an enumerator of DepthMode
+  draw_conservative,        // not an enumerator of Conservative, or in a frame that asks for more than count and
+                            // index, or with several samples, a depth mode or a Grid [M4], or
+                            // lines or points
+  draw_grid,                // bits outside 0..12, an offset outside 0..15, or not an enumerator of GridRounding;
+                            // or with lines or points
+  viewport,                 // a viewport number that is not finite
+  options_threads,          // a number of threads outside 1..kMaxThreads
+  options_path,             // not an enumerator of Path
+  query_boxes,              // of an occlusion query: null but not empty, or a number that is not finite
+  query_answers,            // null but not empty, or not one for each box
+  visitor,                  // of visit_coverage: its function is null
+  bad_build,                // the library was compiled with options that break exact arithmetic (docs/library.md)
+  to_pixel_vertices,        // of to_pixel: vertices or out are null but not empty, of two sizes, or overlap
+  target_outputs,           // of visit_coverage: the target asks for an output, or for layers
+  target_origin,            // |x| or |y| above kMaxOrigin
   target_sample_locations,  // neither empty nor one for each sample, a place outside 0..15, or with a conservative draw
   target_layers,            // outside 1..kMaxLayers, or above 1 with depth write off or a conservative draw [V4]
   target_winding,           // winding is neither empty nor of sample_total(target) elements
-  draw_depth_bias,          // a number that is not finite
+  draw_depth_bias,          // a number that is not finite, or with lines or points [I8]
   draw_covered,             // neither empty nor one for each triangle
   draw_visible,             // visible: the same, or with a conservative draw [M10]
+  draw_primitive,           // not an enumerator of Primitive
+  draw_width,               // not finite, not above 0, or none for lines of a target with several samples [M7]
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".
@@ -173,6 +180,10 @@ struct Viewport {
 // number is not finite, the status says so and nothing is written.
 Status to_pixel(const Viewport& viewport, std::span<const ClipVertex> vertices,
                              std::span<Vertex> out) noexcept;
+
+// What a draw consists of: of so many vertices each, 3, 2 or 1. Strips are the caller's indices. Lines and points have no
+// facing: nothing culls them, and they add 0 to winding.
+enum class Primitive : std::uint8_t { triangles, lines, points };
 
 // Which side owns a sample that lies exactly on an edge [C3]: the sample is moved by an infinitely small step. The
 // first four move it in x first and in y only to settle ties along a horizontal edge; the next four in y first. The
@@ -245,6 +256,10 @@ struct DrawState {
   std::optional<Grid> grid;
   std::optional<std::array<Vertex, 8>> culling_box;  // corners whose hull contains the draw: the caller's promise [M6]
   std::optional<DepthBias> depth_bias;               // no part in conservative draws
+  Primitive primitive = Primitive::triangles;
+  // Of lines, or the side of a point's square, in pixels: finite, above 0. Without one points have 1 pixel, and lines are
+  // thin: they cover the samples whose diamond they leave [M7].
+  std::optional<float> width;
 
   // Equality of numbers: -0 equals 0, a NaN equals nothing.
   bool operator==(const DrawState&) const = default;
@@ -254,7 +269,8 @@ struct DrawState {
   const DrawState& state() const { return *this; }
 };
 
-// Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2].
+// Triangles and how they are drawn. Triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2]; line t has
+// indices[2t] and indices[2t + 1], point t has indices[t].
 struct Draw : DrawState {
   std::span<const Vertex> vertices;
   std::span<const std::uint32_t> indices;
@@ -325,8 +341,9 @@ struct Statistics {
 // Who draws. Both paths give the same image.
 enum class Path : std::uint8_t {
   automatic,  // the fast path; for layers, winding, numbers of triangles, a bias, LEQUAL, GEQUAL, overlap, touched and the
-  // index of conservative draws it finds who covers, and exact scalar code does the rest; the reference path
-  // where a target with an origin has a draw with a Grid, and for 2^32 - 1 triangles and more in all draws together
+  // index of conservative draws, and in frames with lines or points, it finds who covers, and exact scalar code does the
+  // rest; the reference path where a target with an origin has a draw with a Grid, for visit_coverage of lines or points,
+  // and for 2^32 - 1 triangles and more in all draws together
   reference,  // the scalar reference path, on one thread
 };
 

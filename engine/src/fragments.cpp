@@ -50,7 +50,8 @@ bool DrawFragments::counts(Fragment& f) {
 
 bool DrawFragments::counts_of_covered(Fragment& f) {
   if (draw_.conservative == Conservative::overlap) return counts(f);
-  return layers_ == nullptr || triangle_.depth(place_of(f), &f.z, &rungs_);
+  const bool clips = draw_.depth_mode == DepthMode::clip && !has_triangles(draw_);  // a stream is clipped already
+  return (layers_ == nullptr && !clips) || triangle_.depth(place_of(f), &f.z, &rungs_);
 }
 
 void DrawFragments::take(const Fragment& f) {
@@ -59,7 +60,7 @@ void DrawFragments::take(const Fragment& f) {
   if (!draw_.covered.empty()) {  // the triangle may be met on other threads too
     std::atomic_ref(draw_.covered[f.position]).fetch_add(1, std::memory_order_relaxed);
   }
-  if (!target_.winding.empty()) {  // M9, modulo 2^32
+  if (!target_.winding.empty() && has_triangles(draw_)) {  // M9, modulo 2^32
     const std::uint32_t one = triangle_.is_front(place_of(f), shift_, &rungs_) ? 1u : 0xFFFFFFFFu;
     target_.winding[s] = static_cast<std::int32_t>(static_cast<std::uint32_t>(target_.winding[s]) + one);
   }
@@ -112,8 +113,9 @@ void DrawFragments::shade(std::uint32_t position, int x, int y, std::size_t plac
     if (out.values.empty()) continue;
     const AttributeArray& in = draw_.attributes[k];
     for (std::size_t c = 0; c < out.components; ++c) {
-      float u[3];
-      for (std::size_t i = 0; i < 3; ++i) u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
+      float u[3] = {};
+      for (std::size_t i = 0; i < corners_of(draw_); ++i)
+        u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
       out.values[place * out.components + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
     }
   }

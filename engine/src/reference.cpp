@@ -23,8 +23,7 @@ void traverse(const Target& target, const Draw& draw, DrawFragments& fragments, 
   for (std::size_t t = 0; t < triangles_of(draw); ++t) {
     const auto position = static_cast<std::uint32_t>(t);
     if (region.empty() || !is_finite(draw, position) || !fragments.triangle().use(draw, position, &rungs)) continue;
-    // Under Grid facing is a matter of the sample (G1).
-    if (!draw.grid && culls(draw, fragments.triangle().triangle().determinant())) continue;
+    if (fragments.triangle().is_culled()) continue;
     PixelBox box = fragments.triangle().box(region, least, largest);
     if (box.empty()) continue;
     box = {box.x0 - o.x, box.y0 - o.y, box.x1 - o.x, box.y1 - o.y};

@@ -15,8 +15,10 @@ Statistics statistics_of(std::span<const Draw> draws) noexcept {
         ++sum.dropped;
         continue;
       }
-      const int sign = orientation(draw, position);
-      if (sign == 0 && is_degenerate(draw, position)) {
+      const int sign = has_triangles(draw) ? orientation(draw, position) : 0;
+      if (!has_triangles(draw)) {
+        ++(ExactDraw().use(draw, position) ? sum.rasterized : sum.degenerate);
+      } else if (sign == 0 && is_degenerate(draw, position)) {
         ++sum.degenerate;
       } else if (!draw.grid && culls(draw, sign)) {
         ++sum.culled;

@@ -7,6 +7,7 @@
 
 #include "fast/frame.hpp"
 #include "fragments.hpp"
+#include "lines.hpp"
 #include "reference.hpp"
 
 namespace surefill::streamed {
@@ -15,12 +16,13 @@ namespace {
 // What a block of the stream needs. Blocks of different tiles come on different threads, and share no sample.
 struct Sink {
   const Target& target;
-  std::span<const Draw> draws;
+  std::span<const Draw> draws;  // of the frame
+  std::size_t first;            // the first one that is streamed
   Layers* layers;
 
   static void visit(void* context, std::span<const CoverageBlock> blocks) {
     const Sink& sink = *static_cast<const Sink*>(context);
-    const std::uint32_t number = blocks[0].draw, position = blocks[0].triangle;
+    const std::uint32_t number = static_cast<std::uint32_t>(sink.first) + blocks[0].draw, position = blocks[0].triangle;
     Rungs rungs;  // those of the fragments are not told
     DrawFragments fragments(sink.target, sink.draws[number], number, sink.layers, rungs);
     fragments.triangle().use(sink.draws[number], position);
@@ -53,6 +55,16 @@ void draw_degenerate(const Target& target, const Draw& draw, std::uint32_t numbe
   }
 }
 
+// The other kinds of primitives: points by the reference path, as most have one sample.
+void draw_lines_or_points(const Target& target, const Draw& draw, std::uint32_t number, Layers* layers) {
+  Rungs rungs;
+  if (draw.primitive == Primitive::lines) {
+    draw_lines(target, draw, number, layers, rungs);
+  } else {
+    reference::draw(target, draw, number, layers, rungs);
+  }
+}
+
 }  // namespace
 
 bool supports(const Target& target, std::span<const Draw> draws) {
@@ -71,10 +83,21 @@ Status render(const Target& target, std::span<const Draw> draws, const Options& 
   Target places;  // all that a stream knows of a target
   places.width = target.width, places.height = target.height, places.samples = target.samples;
   places.origin = target.origin, places.sample_locations = target.sample_locations;
-  Sink sink{target, draws, frame.layers()};
-  const Status status =
-      fast::visit_coverage(places, {streamed.get(), draws.size()}, {Sink::visit, &sink}, options, diagnostics);
-  if (status != Status::ok) return status;
+  const std::span<const Draw> coverage(streamed.get(), draws.size());
+  for (std::size_t first = 0; first < draws.size();) {
+    std::size_t last = first;  // of a run of draws of triangles
+    while (last < draws.size() && has_triangles(draws[last])) ++last;
+    if (last > first) {
+      Sink sink{target, draws, first, frame.layers()};
+      const Status status = fast::visit_coverage(places, coverage.subspan(first, last - first), {Sink::visit, &sink},
+                                                 options, diagnostics);
+      if (status != Status::ok) return status;
+    } else {
+      draw_lines_or_points(target, draws[first], static_cast<std::uint32_t>(first), frame.layers());
+      ++last;
+    }
+    first = last;
+  }
   for (std::size_t d = 0; d < draws.size(); ++d) {
     if (draws[d].conservative != Conservative::touched) continue;
     draw_degenerate(target, draws[d], static_cast<std::uint32_t>(d));

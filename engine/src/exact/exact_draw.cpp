@@ -20,6 +20,12 @@ bool is_degenerate(const Draw& draw, std::uint32_t position) {
 bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
   if (draw_ == &draw && position_ == position) return covers_something_;
   draw_ = &draw, position_ = position;
+  if (!has_triangles(draw)) {
+    const Vertex& v = vertex_of(draw, position, 0);
+    covers_something_ = is_line() ? line_.set_up(v, vertex_of(draw, position, 1), draw.width)
+                                  : point_.set_up(v, draw.width.value_or(1.0f));
+    return covers_something_;
+  }
   const Vertex &v0 = vertex_of(draw, position, 0), &v1 = vertex_of(draw, position, 1),
                &v2 = vertex_of(draw, position, 2);
   covers_something_ = draw.grid ? snapped_.set_up(v0, v1, v2, *draw.grid, rungs, origin_)
@@ -28,6 +34,10 @@ bool ExactDraw::use(const Draw& draw, std::uint32_t position, Rungs* rungs) {
 }
 
 PixelBox ExactDraw::box(const PixelBox& limits, double least_offset, double largest_offset) const {
+  if (!has_triangles(*draw_)) {
+    return is_line() ? line_.box(limits, least_offset, largest_offset)
+                     : point_.box(limits, least_offset, largest_offset);
+  }
   if (draw_->grid) return snapped_.box(limits, least_offset, largest_offset);
   const bool squares = draw_->conservative != Conservative::none;
   return screen_box(triangle_.vertex(0), triangle_.vertex(1), triangle_.vertex(2), limits, squares ? 0 : least_offset,
@@ -48,10 +58,14 @@ bool ExactDraw::draws_square(int x, int y, Rungs* rungs) const {
 }
 
 bool ExactDraw::depth(SamplePosition p, float* stored, Rungs* rungs) {
+  if (!has_triangles(*draw_)) {
+    return is_line() ? line_.depth(p, draw_->depth_mode, stored, rungs) : point_.depth(draw_->depth_mode, stored);
+  }
   return draw_->grid ? snapped_.depth(p, *draw_, stored, rungs) : triangle_.depth(p, *draw_, stored, rungs);
 }
 
 bool ExactDraw::has_values(SamplePosition p) const {
+  if (!has_triangles(*draw_)) return true;  // I6, I7: everywhere
   return draw_->grid ? snapped_.has_weights(p) : triangle_.plane_in_front(p);
 }
 
@@ -68,6 +82,7 @@ SamplePosition ExactDraw::place_of_attributes(const Target& target, int x, int y
 }
 
 float ExactDraw::attribute(SamplePosition p, const float (&u)[3], Interpolation interpolation, Rungs* rungs) {
+  if (!has_triangles(*draw_)) return is_line() ? line_.attribute(p, u, interpolation, rungs) : surefill::stored(u[0]);
   return draw_->grid ? snapped_.attribute(p, u, interpolation, rungs) : triangle_.attribute(p, u, interpolation, rungs);
 }
 

@@ -9,15 +9,11 @@
 #include <cmath>
 #include <limits>
 
+#include "approximation.hpp"
 #include "edge.hpp"
 #include "exact.hpp"
 
 namespace surefill {
-
-// A double and a bound of its distance from the real number it stands for.
-struct Approximation {
-  double value, error;
-};
 
 // w0 e0 + w1 e1 + w2 e2 for exact weights. Three products and two sums: below 3 units of 2^-53 of the sum of absolute
 // terms; the bound has 8, which covers the rounding of the bound itself.
@@ -26,15 +22,6 @@ inline Approximation weighted_sum(const double (&w)[3], const Approximation (&e)
   const double magnitude = (std::fabs(t0) + std::fabs(t1)) + std::fabs(t2);
   const double inherited = (std::fabs(w[0]) * e[0].error + std::fabs(w[1]) * e[1].error) + std::fabs(w[2]) * e[2].error;
   return {(t0 + t1) + t2, inherited + 0x1p-50 * magnitude};
-}
-
-// n / m. For real N, M: N/M - n/m = ((N - n) - (n/m)(M - m)) / M. Infinite error where M may be 0. The factor covers
-// the rounding of the bound.
-inline Approximation quotient(Approximation n, Approximation m) {
-  const double smallest = std::fabs(m.value) - m.error;
-  if (!(smallest > 0)) return {0, std::numeric_limits<double>::infinity()};
-  const double q = n.value / m.value;
-  return {q, ((n.error + std::fabs(q) * m.error) / smallest + std::fabs(q) * 0x1p-52) * (1 + 0x1p-20)};
 }
 
 class Triangle {
@@ -206,9 +193,7 @@ class Triangle {
  private:
   static constexpr EdgeSet kAllEdges = 7;
 
-  static float value_of_vertex_0(const float (&u)[3]) {
-    return u[0] + 0.0f;  // -0 becomes +0 (I4)
-  }
+  static float value_of_vertex_0(const float (&u)[3]) { return stored(u[0]); }
 
   // The E_i at p; 0 for edges outside the set.
   void evaluate_edges(SamplePosition p, Approximation (&e)[3], EdgeSet set = kAllEdges) const {
@@ -289,18 +274,6 @@ class Triangle {
     for (int i = 0; i < numerator.size(); ++i) rest.add(numerator.term(i));
     for (int i = 0; i < determinant_.size(); ++i) rest.add(-bound * determinant_.term(i));
     return rest;
-  }
-
-  // The float32 of I4: by the filter if it can tell, else by `exact`.
-  template <typename Exact>
-  static float rounded(Approximation q, Exact exact, Rungs* rungs = nullptr) {
-    float result;
-    if (round_interval(q.value - q.error, q.value + q.error, &result)) {
-      count(rungs, &Rungs::values_by_filter);
-      return result;
-    }
-    count(rungs, &Rungs::values_by_expansion);
-    return exact();
   }
 
   Vertex vertex_[3];

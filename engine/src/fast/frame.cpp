@@ -281,7 +281,7 @@ bool streams(const Target& target, std::span<const Draw> draws) {
 bool supports(const Target& target, std::span<const Draw> draws) {
   const auto plain = [&](const Draw& draw) {
     const bool squares = draw.conservative != Conservative::none;
-    return !draw.depth_bias && draw.covered.empty() && draw.visible.empty() &&
+    return has_triangles(draw) && !draw.depth_bias && draw.covered.empty() && draw.visible.empty() &&
            draw.conservative <= Conservative::inner && !(squares && !target.index.empty());
   };
   return streams(target, draws) && target.layers == 1 && target.winding.empty() && !takes_equal(target.depth_test) &&

@@ -13,7 +13,7 @@ namespace surefill::fast {
 
 // Does the fast path draw frames like this one? If not, others have to.
 bool supports(const Target& target, std::span<const Draw> draws);
-// And does it stream their coverage, but for M4a and M4b?
+// And does it stream their coverage, but for M4a and M4b, and for lines and points?
 bool streams(const Target& target, std::span<const Draw> draws);
 
 // As reference::render. Working memory: 4 bytes a pixel for depth, 4 for visibility, 4 for counts, as far as they are

@@ -103,6 +103,9 @@ class OpenGl : public Llvmpipe {
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(workload.indices.size() * sizeof(std::uint32_t)),
                  workload.indices.data(), GL_STATIC_DRAW);
     count_ = static_cast<GLsizei>(workload.indices.size());
+    primitive_ = workload.primitive == Primitive::triangles ? GL_TRIANGLES
+                 : workload.primitive == Primitive::lines   ? GL_LINES
+                                                            : GL_POINTS;
     if (values.empty()) {
       glDisableVertexAttribArray(1);
       return;
@@ -117,7 +120,7 @@ class OpenGl : public Llvmpipe {
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffers_[color ? 1 : 0]);
     glUseProgram(programs_[color ? 1 : 0]);
     glClear(GL_DEPTH_BUFFER_BIT | (color ? GL_COLOR_BUFFER_BIT : 0u));
-    glDrawElements(GL_TRIANGLES, count_, GL_UNSIGNED_INT, nullptr);
+    glDrawElements(primitive_, count_, GL_UNSIGNED_INT, nullptr);
     glFinish();
   }
 
@@ -127,6 +130,7 @@ class OpenGl : public Llvmpipe {
   std::string name_;
   GLuint framebuffers_[2] = {}, programs_[2] = {}, buffers_[3] = {};
   GLsizei count_ = 0;
+  GLenum primitive_ = GL_TRIANGLES;
 };
 
 }  // namespace

@@ -51,6 +51,10 @@ const Workload& workload(const std::string& name) {
                                                                  : Placement::free);
   } else if (name[0] == 's' && name[1] == 'p') {
     held = make_spot(std::atoi(placement.c_str()));
+  } else if (name[0] == 'l') {
+    held = make_lines(std::strtoull(placement.c_str(), nullptr, 10));
+  } else if (name[0] == 'p') {
+    held = make_points(std::strtoull(placement.c_str(), nullptr, 10));
   } else if (name[0] == 'k') {
     held = make_knot(std::strtoull(placement.c_str(), nullptr, 10));
   } else {
@@ -81,7 +85,7 @@ struct Frame {
         attribute_target{shaded, 4} {
     target.width = kWidth, target.height = kHeight;
     target.count = count, target.index = index, target.depth = depth;
-    triangles.vertices = work.vertices, triangles.indices = work.indices;
+    triangles.vertices = work.vertices, triangles.indices = work.indices, triangles.primitive = work.primitive;
     if (mode == Mode::plain || mode == Mode::grid) triangles.depth_mode = DepthMode::clip;
     if (mode == Mode::grid) triangles.grid = Grid{};
     if (mode == Mode::over) triangles.conservative = Conservative::over;
@@ -286,6 +290,11 @@ void add_all() {
     add(free + "/depth/inexact-depth", [=](State& state) { inexact_draws(state, free, surefill_bench_inexact_depth); });
   }
   for (const char* const triangles : {"50000", "1000000"}) add_both(std::string("knot/") + triangles, options);
+  for (const char* const name : {"lines/100000", "points/1000000"}) {
+    add(std::string(name) + "/depth/surefill",
+        [=](State& state) { surefill_draws(state, name, Output::depth, options); });
+    add(std::string(name) + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
+  }
   if (!one) return;
   for (const char* const height : {"135", "270", "540", "1080"}) {
     const std::string name = std::string("spot/") + height;

@@ -155,6 +155,34 @@ Workload make_small_triangles(std::size_t triangles) {
   return workload;
 }
 
+Workload make_lines(std::size_t lines) {
+  Random random(1);
+  Workload workload;
+  workload.primitive = Primitive::lines;
+  for (std::size_t i = 0; i < lines; ++i) {
+    const double x = random.uniform(0, kWidth), y = random.uniform(0, kHeight);
+    const double angle = random.uniform(0, 2 * std::numbers::pi);
+    for (const double length : {0.0, 100.0}) {
+      workload.indices.push_back(static_cast<std::uint32_t>(workload.vertices.size()));
+      workload.vertices.push_back(vertex(x + length * std::cos(angle), y + length * std::sin(angle),
+                                         random.uniform(0, 1), random.uniform(1, 10), Placement::free));
+    }
+  }
+  return workload;
+}
+
+Workload make_points(std::size_t points) {
+  Random random(1);
+  Workload workload;
+  workload.primitive = Primitive::points;
+  for (std::size_t i = 0; i < points; ++i) {
+    workload.indices.push_back(static_cast<std::uint32_t>(i));
+    workload.vertices.push_back(vertex(random.uniform(0, kWidth), random.uniform(0, kHeight), random.uniform(0, 1),
+                                       random.uniform(1, 10), Placement::free));
+  }
+  return workload;
+}
+
 Workload make_knot(std::size_t triangles) {
   const auto around = static_cast<std::uint32_t>(std::sqrt(static_cast<double>(triangles) / 20));
   const auto along = static_cast<std::uint32_t>(triangles / 2 / around);

@@ -22,6 +22,7 @@ struct Workload {
   std::string name;
   std::vector<Vertex> vertices;
   std::vector<std::uint32_t> indices;
+  Primitive primitive = Primitive::triangles;
 };
 
 // W1: 1,000,000 random triangles of 10 pixels mean area. W2: 200,000 of 200. W3: 2,000 of 100,000 (before clipping).
@@ -33,6 +34,10 @@ Workload make_workload(int number, Placement placement);
 
 // `triangles` random triangles of 10 pixels, as W1.
 Workload make_small_triangles(std::size_t triangles);
+
+// So many lines of 100 pixels in random directions, and so many points; W uniform in [1, 10].
+Workload make_lines(std::size_t lines);
+Workload make_points(std::size_t points);
 
 // A knot of a tube with so many triangles, a closed mesh that fills most of the frame's height; triangles even.
 Workload make_knot(std::size_t triangles);

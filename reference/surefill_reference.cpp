@@ -1189,8 +1189,18 @@ class Line {
     return true;
   }
 
+  // z(t) = slope t + start for the depth (I7) between the ends, off by less than error + 2^-50 |slope t|.
+  struct DepthAlong {
+    double slope, start, error;
+  };
+  DepthAlong depth_along() const {
+    const double t0 = end_[0].t, w0 = end_[0].w, z0 = end_[0].z, t1 = end_[1].t, w1 = end_[1].w, z1 = end_[1].z;
+    const double determinant = t0 * w1 - t1 * w0;  // each difference is of exact products
+    const double start = (t0 * z1 - t1 * z0) / determinant;
+    return {(w1 * z0 - w0 * z1) / determinant, start, 0x1p-50 * std::fabs(start)};
+  }
+
   bool x_major() const { return x_major_; }
-  bool thin() const { return thin_; }
   double half_width() const { return half_; }
   const EdgeFunction& edge() const { return edge_; }
 
@@ -1214,12 +1224,12 @@ class Line {
     return true;
   }
 
-  // Is the sample so far from both ends, along the major axis, that neither lies in its diamond?
-  bool far_from_ends(SamplePosition p) const {
-    for (const End& end : end_) {
-      if (end.w > 0 && !(std::fabs(along(p) * end.w - end.t) > end.w)) return false;
-    }
-    return true;
+  // From which to which major coordinate S reaches, to within a rounding; without an end, infinitely far.
+  Reach reach_of_ends() const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto place = [](const End& end, double without) { return end.w > 0 ? end.t / end.w : without; };
+    if (forward_ > 0) return {place(end_[0], -kInfinity), place(end_[1], kInfinity)};
+    return {place(end_[1], -kInfinity), place(end_[0], kInfinity)};
   }
 
   // The pixels of `limits` that it can cover. Sample offsets within a pixel lie in [least_offset, largest_offset].
@@ -1563,17 +1573,23 @@ class Layers {
  public:
   static constexpr std::uint32_t kNoDraw = 0xFFFFFFFFu;
 
-  // False where memory is lacking.
-  bool allocate(const Target& target);
+  // False where memory is lacking. `named`: somebody looks at who is seen, and not at the depth alone.
+  bool allocate(const Target& target, bool named);
 
   std::size_t size() const { return layers_ * total_; }
   std::size_t total() const { return total_; }
   float depth(std::size_t place) const { return depth_[place]; }
-  std::uint32_t draw(std::size_t place) const { return draw_[place]; }
+  // kNoDraw where nobody looks at who is seen.
+  std::uint32_t draw(std::size_t place) const { return draw_ != nullptr ? draw_[place] : kNoDraw; }
   std::uint32_t position(std::size_t place) const { return position_[place]; }
 
   void put(std::size_t place, std::uint32_t draw, std::uint32_t position) {
-    draw_[place] = draw, position_[place] = position;
+    if (draw_ != nullptr) draw_[place] = draw, position_[place] = position;
+  }
+  // Puts a fragment into the only layer there is.
+  void replace(std::size_t place, std::uint32_t draw, std::uint32_t position, float z) {
+    put(place, draw, position);
+    depth_[place] = z;
   }
   // Puts a fragment into a place; what was there, and behind it, moves one layer back.
   void insert(std::size_t place, std::uint32_t draw, std::uint32_t position, float z);
@@ -1597,6 +1613,9 @@ class DrawFragments {
         layers_(layers),
         rungs_(rungs),
         shift_(tie_shift(draw.fill_rule)),
+        depth_alone_(layers != nullptr && target.layers == 1 && draw.depth_write && draw.identifiers.empty() &&
+                     !takes_equal(target.depth_test) && target.count.empty() && target.winding.empty() &&
+                     draw.covered.empty()),
         triangle_(target.origin) {}
 
   // The draw's exact triangles, of which one is in use, and its number in the frame.
@@ -1609,12 +1628,18 @@ class DrawFragments {
   // What is left of that where M2 but for M4a is known to hold.
   bool counts_of_covered(Fragment& f);
   // Counts it, and sees who is in front.
-  void take(const Fragment& f);
+  void take(const Fragment& f) {
+    if (!depth_alone_) return take_all(f);
+    const std::size_t s = sample_index(target_, f.x, f.y, static_cast<std::size_t>(f.n));
+    const float there = layers_->depth(s);
+    if (is_reversed(target_.depth_test) ? f.z > there : f.z < there) layers_->replace(s, number_, f.position, f.z);
+  }
 
   // Writes barycentrics and attributes of a triangle that is seen in pixel (x, y) of the target, to a place of the outputs.
   void shade(std::uint32_t position, int x, int y, std::size_t place);
 
  private:
+  void take_all(const Fragment& f);
   SamplePosition place_of(const Fragment& f) const {
     return place_of_sample(target_, target_.origin.x + f.x, target_.origin.y + f.y, f.n);
   }
@@ -1630,6 +1655,7 @@ class DrawFragments {
   Layers* layers_;
   Rungs& rungs_;
   TieShift shift_;
+  bool depth_alone_;  // nothing counts fragments, and one that comes later is seen only if it is nearer
   ExactDraw triangle_;
 };
 
@@ -2403,17 +2429,20 @@ float ExactDraw::attribute(SamplePosition p, const float (&u)[3], Interpolation 
 // ---------------------------------------------------------------- src/fragments.cpp
 namespace surefill_reference {
 
-bool Layers::allocate(const Target& target) {
+bool Layers::allocate(const Target& target, bool named) {
   total_ = sample_total(target), layers_ = static_cast<std::size_t>(target.layers);
   depth_ = target.depth.data();
   if (target.depth.empty()) {
     own_depth_.reset(new (std::nothrow) float[size()]);
     depth_ = own_depth_.get();
   }
-  draw_.reset(new (std::nothrow) std::uint32_t[size()]);
-  position_.reset(new (std::nothrow) std::uint32_t[size()]);
-  if (depth_ == nullptr || draw_ == nullptr || position_ == nullptr) return false;
-  std::fill(draw_.get(), draw_.get() + size(), kNoDraw);
+  if (depth_ == nullptr) return false;
+  if (named) {
+    draw_.reset(new (std::nothrow) std::uint32_t[size()]);
+    position_.reset(new (std::nothrow) std::uint32_t[size()]);
+    if (draw_ == nullptr || position_ == nullptr) return false;
+    std::fill(draw_.get(), draw_.get() + size(), kNoDraw);
+  }
   for (float* layer = depth_; layer < depth_ + size(); layer += total_) {
     if (target.initial_depth.empty()) {
       std::fill(layer, layer + total_, empty_depth(target.depth_test));
@@ -2426,11 +2455,10 @@ bool Layers::allocate(const Target& target) {
 
 void Layers::insert(std::size_t place, std::uint32_t draw, std::uint32_t position, float z) {
   for (std::size_t to = place % total_ + (layers_ - 1) * total_; to > place; to -= total_) {
-    put(to, draw_[to - total_], position_[to - total_]);
+    if (draw_ != nullptr) put(to, draw_[to - total_], position_[to - total_]);
     depth_[to] = depth_[to - total_];
   }
-  put(place, draw, position);
-  depth_[place] = z;
+  replace(place, draw, position, z);
 }
 
 bool DrawFragments::counts(Fragment& f) {
@@ -2445,11 +2473,10 @@ bool DrawFragments::counts(Fragment& f) {
 
 bool DrawFragments::counts_of_covered(Fragment& f) {
   if (draw_.conservative == Conservative::overlap) return counts(f);
-  const bool clips = draw_.depth_mode == DepthMode::clip && !has_triangles(draw_);  // a stream is clipped already
-  return (layers_ == nullptr && !clips) || triangle_.depth(place_of(f), &f.z, &rungs_);
+  return layers_ == nullptr || triangle_.depth(place_of(f), &f.z, &rungs_);
 }
 
-void DrawFragments::take(const Fragment& f) {
+void DrawFragments::take_all(const Fragment& f) {
   const std::size_t s = sample_index(target_, f.x, f.y, static_cast<std::size_t>(f.n));
   if (!target_.count.empty()) ++target_.count[s];
   if (!draw_.covered.empty()) {  // the triangle may be met on other threads too
@@ -2555,7 +2582,7 @@ FragmentFrame::FragmentFrame(const Target& target, std::span<const Draw> draws)
 }
 
 bool FragmentFrame::begin() {
-  if (seen_ && !layers_.allocate(target_)) return false;
+  if (seen_ && !layers_.allocate(target_, wanted_.visibility || visible_)) return false;
   clear(target_);
   for (const Draw& draw : draws_) {
     std::fill(draw.covered.begin(), draw.covered.end(), 0u);

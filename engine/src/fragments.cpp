@@ -8,17 +8,20 @@
 
 namespace surefill {
 
-bool Layers::allocate(const Target& target) {
+bool Layers::allocate(const Target& target, bool named) {
   total_ = sample_total(target), layers_ = static_cast<std::size_t>(target.layers);
   depth_ = target.depth.data();
   if (target.depth.empty()) {
     own_depth_.reset(new (std::nothrow) float[size()]);
     depth_ = own_depth_.get();
   }
-  draw_.reset(new (std::nothrow) std::uint32_t[size()]);
-  position_.reset(new (std::nothrow) std::uint32_t[size()]);
-  if (depth_ == nullptr || draw_ == nullptr || position_ == nullptr) return false;
-  std::fill(draw_.get(), draw_.get() + size(), kNoDraw);
+  if (depth_ == nullptr) return false;
+  if (named) {
+    draw_.reset(new (std::nothrow) std::uint32_t[size()]);
+    position_.reset(new (std::nothrow) std::uint32_t[size()]);
+    if (draw_ == nullptr || position_ == nullptr) return false;
+    std::fill(draw_.get(), draw_.get() + size(), kNoDraw);
+  }
   for (float* layer = depth_; layer < depth_ + size(); layer += total_) {
     if (target.initial_depth.empty()) {
       std::fill(layer, layer + total_, empty_depth(target.depth_test));
@@ -31,11 +34,10 @@ bool Layers::allocate(const Target& target) {
 
 void Layers::insert(std::size_t place, std::uint32_t draw, std::uint32_t position, float z) {
   for (std::size_t to = place % total_ + (layers_ - 1) * total_; to > place; to -= total_) {
-    put(to, draw_[to - total_], position_[to - total_]);
+    if (draw_ != nullptr) put(to, draw_[to - total_], position_[to - total_]);
     depth_[to] = depth_[to - total_];
   }
-  put(place, draw, position);
-  depth_[place] = z;
+  replace(place, draw, position, z);
 }
 
 bool DrawFragments::counts(Fragment& f) {
@@ -50,11 +52,10 @@ bool DrawFragments::counts(Fragment& f) {
 
 bool DrawFragments::counts_of_covered(Fragment& f) {
   if (draw_.conservative == Conservative::overlap) return counts(f);
-  const bool clips = draw_.depth_mode == DepthMode::clip && !has_triangles(draw_);  // a stream is clipped already
-  return (layers_ == nullptr && !clips) || triangle_.depth(place_of(f), &f.z, &rungs_);
+  return layers_ == nullptr || triangle_.depth(place_of(f), &f.z, &rungs_);
 }
 
-void DrawFragments::take(const Fragment& f) {
+void DrawFragments::take_all(const Fragment& f) {
   const std::size_t s = sample_index(target_, f.x, f.y, static_cast<std::size_t>(f.n));
   if (!target_.count.empty()) ++target_.count[s];
   if (!draw_.covered.empty()) {  // the triangle may be met on other threads too
@@ -160,7 +161,7 @@ FragmentFrame::FragmentFrame(const Target& target, std::span<const Draw> draws)
 }
 
 bool FragmentFrame::begin() {
-  if (seen_ && !layers_.allocate(target_)) return false;
+  if (seen_ && !layers_.allocate(target_, wanted_.visibility || visible_)) return false;
   clear(target_);
   for (const Draw& draw : draws_) {
     std::fill(draw.covered.begin(), draw.covered.end(), 0u);

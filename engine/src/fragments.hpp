@@ -31,17 +31,23 @@ class Layers {
  public:
   static constexpr std::uint32_t kNoDraw = 0xFFFFFFFFu;
 
-  // False where memory is lacking.
-  bool allocate(const Target& target);
+  // False where memory is lacking. `named`: somebody looks at who is seen, and not at the depth alone.
+  bool allocate(const Target& target, bool named);
 
   std::size_t size() const { return layers_ * total_; }
   std::size_t total() const { return total_; }
   float depth(std::size_t place) const { return depth_[place]; }
-  std::uint32_t draw(std::size_t place) const { return draw_[place]; }
+  // kNoDraw where nobody looks at who is seen.
+  std::uint32_t draw(std::size_t place) const { return draw_ != nullptr ? draw_[place] : kNoDraw; }
   std::uint32_t position(std::size_t place) const { return position_[place]; }
 
   void put(std::size_t place, std::uint32_t draw, std::uint32_t position) {
-    draw_[place] = draw, position_[place] = position;
+    if (draw_ != nullptr) draw_[place] = draw, position_[place] = position;
+  }
+  // Puts a fragment into the only layer there is.
+  void replace(std::size_t place, std::uint32_t draw, std::uint32_t position, float z) {
+    put(place, draw, position);
+    depth_[place] = z;
   }
   // Puts a fragment into a place; what was there, and behind it, moves one layer back.
   void insert(std::size_t place, std::uint32_t draw, std::uint32_t position, float z);
@@ -65,6 +71,9 @@ class DrawFragments {
         layers_(layers),
         rungs_(rungs),
         shift_(tie_shift(draw.fill_rule)),
+        depth_alone_(layers != nullptr && target.layers == 1 && draw.depth_write && draw.identifiers.empty() &&
+                     !takes_equal(target.depth_test) && target.count.empty() && target.winding.empty() &&
+                     draw.covered.empty()),
         triangle_(target.origin) {}
 
   // The draw's exact triangles, of which one is in use, and its number in the frame.
@@ -77,12 +86,18 @@ class DrawFragments {
   // What is left of that where M2 but for M4a is known to hold.
   bool counts_of_covered(Fragment& f);
   // Counts it, and sees who is in front.
-  void take(const Fragment& f);
+  void take(const Fragment& f) {
+    if (!depth_alone_) return take_all(f);
+    const std::size_t s = sample_index(target_, f.x, f.y, static_cast<std::size_t>(f.n));
+    const float there = layers_->depth(s);
+    if (is_reversed(target_.depth_test) ? f.z > there : f.z < there) layers_->replace(s, number_, f.position, f.z);
+  }
 
   // Writes barycentrics and attributes of a triangle that is seen in pixel (x, y) of the target, to a place of the outputs.
   void shade(std::uint32_t position, int x, int y, std::size_t place);
 
  private:
+  void take_all(const Fragment& f);
   SamplePosition place_of(const Fragment& f) const {
     return place_of_sample(target_, target_.origin.x + f.x, target_.origin.y + f.y, f.n);
   }
@@ -98,6 +113,7 @@ class DrawFragments {
   Layers* layers_;
   Rungs& rungs_;
   TieShift shift_;
+  bool depth_alone_;  // nothing counts fragments, and one that comes later is seen only if it is nearer
   ExactDraw triangle_;
 };
 

@@ -56,10 +56,11 @@ void draw_degenerate(const Target& target, const Draw& draw, std::uint32_t numbe
 }
 
 // The other kinds of primitives: points by the reference path, as most have one sample.
-void draw_lines_or_points(const Target& target, const Draw& draw, std::uint32_t number, Layers* layers) {
+void draw_lines_or_points(const Target& target, const Draw& draw, std::uint32_t number, Layers* layers,
+                          const Options& options) {
   Rungs rungs;
   if (draw.primitive == Primitive::lines) {
-    draw_lines(target, draw, number, layers, rungs);
+    draw_lines(target, draw, number, layers, options);
   } else {
     reference::draw(target, draw, number, layers, rungs);
   }
@@ -93,7 +94,7 @@ Status render(const Target& target, std::span<const Draw> draws, const Options& 
                                                  options, diagnostics);
       if (status != Status::ok) return status;
     } else {
-      draw_lines_or_points(target, draws[first], static_cast<std::uint32_t>(first), frame.layers());
+      draw_lines_or_points(target, draws[first], static_cast<std::uint32_t>(first), frame.layers(), options);
       ++last;
     }
     first = last;

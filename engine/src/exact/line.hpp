@@ -30,8 +30,18 @@ class Line {
     return true;
   }
 
+  // z(t) = slope t + start for the depth (I7) between the ends, off by less than error + 2^-50 |slope t|.
+  struct DepthAlong {
+    double slope, start, error;
+  };
+  DepthAlong depth_along() const {
+    const double t0 = end_[0].t, w0 = end_[0].w, z0 = end_[0].z, t1 = end_[1].t, w1 = end_[1].w, z1 = end_[1].z;
+    const double determinant = t0 * w1 - t1 * w0;  // each difference is of exact products
+    const double start = (t0 * z1 - t1 * z0) / determinant;
+    return {(w1 * z0 - w0 * z1) / determinant, start, 0x1p-50 * std::fabs(start)};
+  }
+
   bool x_major() const { return x_major_; }
-  bool thin() const { return thin_; }
   double half_width() const { return half_; }
   const EdgeFunction& edge() const { return edge_; }
 
@@ -55,12 +65,12 @@ class Line {
     return true;
   }
 
-  // Is the sample so far from both ends, along the major axis, that neither lies in its diamond?
-  bool far_from_ends(SamplePosition p) const {
-    for (const End& end : end_) {
-      if (end.w > 0 && !(std::fabs(along(p) * end.w - end.t) > end.w)) return false;
-    }
-    return true;
+  // From which to which major coordinate S reaches, to within a rounding; without an end, infinitely far.
+  Reach reach_of_ends() const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const auto place = [](const End& end, double without) { return end.w > 0 ? end.t / end.w : without; };
+    if (forward_ > 0) return {place(end_[0], -kInfinity), place(end_[1], kInfinity)};
+    return {place(end_[1], -kInfinity), place(end_[0], kInfinity)};
   }
 
   // The pixels of `limits` that it can cover. Sample offsets within a pixel lie in [least_offset, largest_offset].

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "exact/edge.hpp"
 #include "facts.hpp"
@@ -168,7 +169,7 @@ class LineDrawer {
     ExactDraw lines(target_.origin);
     for (std::size_t i = first; i < std::min(first + kPiece, size_); ++i) {
       const auto position = static_cast<std::uint32_t>(begin_ + i);
-      rows_[i] = {0, 0};
+      rows_[i] = {std::numeric_limits<int>::max(), std::numeric_limits<int>::min()};  // none
       if (!is_finite(draw_, position) || !lines.use(draw_, position)) continue;
       const PixelBox box = lines.box(region_, 0, 1);
       if (!box.empty()) rows_[i] = {box.y0, box.y1};

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 namespace surefill::oracle::clipped {
@@ -14,6 +15,10 @@ constexpr Location kCentre{8, 8};
 
 Vector sample_point(int x, int y, const Location& location) {
   return {x + Rational(location.x) / 16, y + Rational(location.y) / 16, 1};
+}
+
+std::size_t corners_of(Primitive primitive) {
+  return primitive == Primitive::points ? 1 : primitive == Primitive::lines ? 2 : 3;
 }
 
 float attribute_value(const AttributeArray& array, std::uint32_t vertex, std::uint32_t component) {
@@ -44,7 +49,8 @@ DrawRun::DrawRun(Frame& frame, const Draw& draw)
       shift_(shift_of(draw.fill_rule)),
       along_x_(shift_.x_dominates || draw.conservative != Conservative::none),
       length_(along_x_ ? target_.width : target_.height) {
-  for (std::size_t i = 0; i < draw.indices.size() / 3; ++i) add_triangle(static_cast<std::uint32_t>(i));
+  const std::size_t primitives = draw.indices.size() / corners_of(draw.primitive);
+  for (std::size_t i = 0; i < primitives; ++i) add_triangle(static_cast<std::uint32_t>(i));
   if (draw.identifiers.empty()) return;
   std::stable_sort(triangles_.begin(), triangles_.end(),
                    [](const Triangle& a, const Triangle& b) { return a.index < b.index; });
@@ -54,7 +60,9 @@ void DrawRun::add_triangle(std::uint32_t position) {
   Triangle triangle;
   triangle.position = position;
   triangle.index = draw_.identifiers.empty() ? draw_.first_index + position : draw_.identifiers[position];
-  for (std::size_t i = 0; i < 3; ++i) triangle.vertices[i] = draw_.indices[3 * std::size_t{position} + i];
+  const std::size_t corners = corners_of(draw_.primitive);
+  const std::span<const std::uint32_t> indices = draw_.indices.subspan(corners * position, corners);
+  for (std::size_t i = 0; i < 3; ++i) triangle.vertices[i] = i < corners ? indices[i] : indices.back();
   if (!is_finite(triangle.vertices)) return;
   std::array<Vector, 3> m;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -65,20 +73,27 @@ void DrawRun::add_triangle(std::uint32_t position) {
     triangle.z[i] = exact(v.z);
     triangle.w[i] = m[i].w;
   }
+  if (draw_.primitive == Primitive::triangles ? find_triangle(m, triangle) : find_area(m, triangle)) {
+    triangles_.push_back(std::move(triangle));
+  }
+}
+
+// Finds what a triangle may cover, and its plane. False if it covers nothing.
+bool DrawRun::find_triangle(const std::array<Vector, 3>& m, Triangle& triangle) const {
   // m0 . (m1 x m2). The facing without Grid: a polygon of the plane seen with W > 0 turns on the screen as the triangle
   // turns in its plane, seen from the eye, because det((x_i, y_i, 1)) is det(m_i) divided by the positive product of W;
   // and a part of the triangle turns as the whole.
   triangle.orientation = sgn(dot(m[0], cross(m[1], m[2])));
   if (draw_.grid) {
-    if (contains_eye(m)) return;  // G1
+    if (contains_eye(m)) return false;  // G1
   } else {
-    if (triangle.orientation == 0 && draw_.conservative != Conservative::touched) return;  // C1, M4b
+    if (triangle.orientation == 0 && draw_.conservative != Conservative::touched) return false;  // C1, M4b
   }
-  if (!project(m, triangle)) return;
+  if (!project(m, triangle)) return false;
   if (draw_.conservative == Conservative::none) {
     triangle.outline = Outline(triangle.polygon, shift_);
     const auto [begin, end] = triangle.outline.lines(lines());
-    if (begin == end) return;
+    if (begin == end) return false;
     triangle.begin = begin;
     triangle.end = end;
     if (draw_.grid) {
@@ -90,7 +105,26 @@ void DrawRun::add_triangle(std::uint32_t position) {
   } else {
     triangle.end = lines();
   }
-  triangles_.push_back(std::move(triangle));
+  return true;
+}
+
+// The same of a line or a point.
+bool DrawRun::find_area(const std::array<Vector, 3>& m, Triangle& triangle) const {
+  std::optional<Rational> size;
+  if (draw_.width) size = exact(*draw_.width);
+  Area area;
+  if (draw_.primitive == Primitive::points) {
+    area = point_area(m[0], size.value_or(1), target_.width, target_.height);
+  } else {
+    triangle.line = SeenLine::make(m[0], m[1]);
+    if (!triangle.line) return false;
+    area = triangle.line->area(size, target_.width, target_.height);
+  }
+  triangle.polygon = std::move(area.region);
+  triangle.outline = Outline(triangle.polygon, shift_);
+  triangle.hole = Outline(area.hole, shift_);
+  std::tie(triangle.begin, triangle.end) = triangle.outline.lines(lines());
+  return triangle.begin < triangle.end;
 }
 
 // Finds the polygon, with Grid also the range of its depth. False if nothing is left.
@@ -140,13 +174,14 @@ bool DrawRun::front(int facing) const {
 }
 
 bool DrawRun::drawn(int facing) const {
+  if (draw_.primitive != Primitive::triangles) return true;
   return draw_.cull == Cull::none || (draw_.cull == Cull::back) == front(facing);
 }
 
 // M2, M9, M4c
 void DrawRun::count(const Triangle& triangle, std::size_t sample, int facing) {
   if (!target_.count.empty()) ++target_.count[sample];
-  if (!target_.winding.empty()) {  // modulo 2^32
+  if (!target_.winding.empty() && draw_.primitive == Primitive::triangles) {  // modulo 2^32
     const std::int64_t sum = std::int64_t{target_.winding[sample]} + (front(facing) ? 1 : -1);
     target_.winding[sample] = static_cast<std::int32_t>(static_cast<std::uint64_t>(sum) & 0xFFFFFFFFu);
   }
@@ -203,8 +238,12 @@ std::vector<Crossing> DrawRun::crossings(const Triangle& triangle, int line, con
     const bool closed = draw_.fill_rule == FillRule::closed;
     return chord_crossings(triangle.polygon, closed, triangle.orientation, line, location.y, location.x, length_);
   }
-  return along_x_ ? triangle.outline.crossings(line, location.y, location.x, length_)
-                  : triangle.outline.crossings(line, location.x, location.y, length_);
+  const int across = along_x_ ? location.y : location.x, along = along_x_ ? location.x : location.y;
+  std::vector<Crossing> result = triangle.outline.crossings(line, across, along, length_);
+  for (const Crossing& crossing : triangle.hole.crossings(line, across, along, length_)) {
+    result.push_back({crossing.first, -crossing.step});
+  }
+  return result;
 }
 
 DrawRun::LineCrossings DrawRun::line_crossings(const Triangle& triangle, int line) const {
@@ -214,8 +253,10 @@ DrawRun::LineCrossings DrawRun::line_crossings(const Triangle& triangle, int lin
   return result;
 }
 
-// I1 without I5; with Grid, G2.
+// I1, I6, I7 without I5; with Grid, G2.
 Rational DrawRun::real_depth(const Triangle& triangle, const Vector& p) const {
+  if (draw_.primitive == Primitive::points) return triangle.z[0] / triangle.w[0];
+  if (triangle.line) return triangle.line->depth(triangle.line->place(p), triangle.z);
   if (triangle.plane) {
     const auto hit = triangle.plane->hit(p).value();  // a covered sample sees the plane
     return triangle.plane->depth(hit, triangle.z);
@@ -280,6 +321,10 @@ bool DrawRun::beats(const Candidate& a, const Candidate& b) const {
 // Weights at a point, or nothing where M1 says that the centre does not serve: the plane is not seen there, or with
 // Grid all E_i count as 0.
 std::optional<PlaceWeights> DrawRun::weights_at(const Triangle& triangle, const Vector& p) const {
+  if (triangle.line) {  // M1: it serves anywhere
+    const SeenLine::Place place = triangle.line->place(p);
+    return PlaceWeights{triangle.line->perspective(place), triangle.line->noperspective(place)};
+  }
   if (triangle.plane) {
     const auto hit = triangle.plane->hit(p);
     if (!hit) return std::nullopt;
@@ -306,7 +351,8 @@ std::optional<PlaceWeights> DrawRun::weights_at(const Triangle& triangle, const 
 // M1, for a pixel of which the triangle covers a sample; `along` is its place on the line. With one sample it is the
 // place (S7), and M1 says the same as I2 and G2.
 PlaceWeights DrawRun::weights(const Triangle& triangle, int x, int y, const LineCrossings& line, int along) const {
-  const PlaceWeights vertex0{{1, 0, 0}, {1, 0, 0}};  // G2
+  const PlaceWeights vertex0{{1, 0, 0}, {1, 0, 0}};  // G2, I6
+  if (draw_.primitive == Primitive::points) return vertex0;
   if (locations_.size() == 1) return weights_at(triangle, sample_point(x, y, locations_[0])).value_or(vertex0);
   if (target_.attribute_location == AttributeLocation::centre) {
     if (auto at_centre = weights_at(triangle, sample_point(x, y, kCentre))) return *at_centre;

@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "oracle/clipped_lines.hpp"
 #include "oracle/clipped_plane.hpp"
 #include "oracle/clipped_polygon.hpp"
 
@@ -21,18 +22,20 @@ struct Location {
   int x, y;
 };
 
-// A triangle of a draw that may cover samples. Space is moved by the target's origin (S6), exactly: X - ox W, Y - oy W
+// A triangle of a draw that may cover samples, or a line or a point, which has its last vertex in the place of those that
+// it lacks. Space is moved by the target's origin (S6), exactly: X - ox W, Y - oy W
 // instead of X, Y, so that pixel (0, 0) is the target's first.
 struct Triangle {
   std::uint32_t position = 0;  // in the draw
   std::uint32_t index = 0;     // V2
   std::array<std::uint32_t, 3> vertices{};
   std::array<Rational, 3> z, w;
-  std::vector<Point> polygon;  // clipped, projected and, with Grid, snapped
-  Outline outline;
+  std::vector<Point> polygon;          // clipped, projected and, with Grid, snapped; of a line or a point Area::region
+  Outline outline, hole;               // of the polygon; of Area::hole
   int begin = 0, end = 0;              // pixel lines it may meet
   int orientation = 0;                 // sign of D
   std::optional<TrianglePlane> plane;  // without Grid
+  std::optional<SeenLine> line;        // of a line
   std::optional<Basis> basis;          // with Grid
   Rational low, high;                  // with Grid: of Z/W of the clipped polygon's corners
   std::optional<Rational> bias;        // I8: c + s m
@@ -90,6 +93,8 @@ class DrawRun {
   using LineCrossings = std::vector<std::vector<Crossing>>;
 
   void add_triangle(std::uint32_t position);
+  bool find_triangle(const std::array<Vector, 3>& m, Triangle& triangle) const;
+  bool find_area(const std::array<Vector, 3>& m, Triangle& triangle) const;
   bool is_finite(const std::array<std::uint32_t, 3>& vertices) const;
   bool project(const std::array<Vector, 3>& m, Triangle& triangle) const;
   void count_conservative(const Triangle& triangle, int line);

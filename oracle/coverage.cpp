@@ -11,12 +11,13 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-struct Step {
-  int x, y;
-  bool x_first;
-};
+// Sign of u v - s t: a determinant of order 3 with (0, 0, 1) as its third column.
+int sign_of_cross(double u, double s, double t, double v) {
+  return sign_of_determinant({u, t, 0}, {s, v, 0}, {0, 0, 1});
+}
 
-// C3: the infinitely small step of a fill rule.
+}  // namespace
+
 Step step_of(FillRule rule) {
   switch (rule) {
     case FillRule::top_left:
@@ -41,13 +42,6 @@ Step step_of(FillRule rule) {
   }
   return {1, 1, true};
 }
-
-// Sign of u v - s t: a determinant of order 3 with (0, 0, 1) as its third column.
-int sign_of_cross(double u, double s, double t, double v) {
-  return sign_of_determinant({u, t, 0}, {s, v, 0}, {0, 0, 1});
-}
-
-}  // namespace
 
 Rect intersect(const Rect& a, const Rect& b) {
   return {std::max(a.x0, b.x0), std::max(a.y0, b.y0), std::min(a.x1, b.x1), std::min(a.y1, b.y1)};

@@ -37,6 +37,13 @@ Point sample_point(int samples, int n, int x, int y);
 // The pixel centre.
 Point centre(int x, int y);
 
+// C3: the infinitely small step of a fill rule. C5's two take no step, and have that of top_left here.
+struct Step {
+  int x, y;
+  bool x_first;
+};
+Step step_of(FillRule rule);
+
 // Where a frame has its samples in each pixel: its own places (S7), or the standard ones.
 class Pattern {
  public:

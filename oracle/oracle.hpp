@@ -18,7 +18,7 @@ namespace surefill::oracle {
 // `threads` threads; the image does not depend on their number. May throw bad_alloc.
 void render(const Target& target, std::span<const Draw> draws, int threads = 1);
 
-// One triangle of a frame, sample by sample: what it would leave in an empty image of its own, without the rest of that
+// One primitive of a frame, sample by sample: what it would leave in an empty image of its own, without the rest of that
 // image. For callers that look at few samples, such as fuzzers. Arguments as for render, and valid; no conservative
 // draw. A target of several layers is looked at as if it had one. The target and the draw must outlive it. Works in round-to-nearest with subnormals (the caller's affair here).
 class Probe {

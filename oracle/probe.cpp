@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first oracle for one triangle, sample by sample.
+// The first oracle for one primitive, sample by sample.
 #include <optional>
 
 #include "oracle/oracle.hpp"
@@ -13,7 +13,7 @@ struct Probe::State {
   const Draw& draw;
   std::size_t triangle;
   Pattern pattern;
-  Rect reach;                     // empty if the triangle is dropped or culled as a whole
+  Rect reach;                     // empty if it is dropped or culled as a whole
   std::optional<Shape> shape;     // unless it is dropped
   std::optional<Depth> depth;     // made when first needed
   std::optional<Visible> values;  // as well
@@ -48,7 +48,7 @@ bool Probe::covers(int x, int y, int n) {
   if (const std::optional<SnappedPolygon>& snapped = state_->shape->snapped()) {
     const int winding = snapped->winding(p);
     if (winding == 0 || is_culled(state_->draw, winding)) return false;
-  } else if (!state_->shape->cone()->covers(p)) {
+  } else if (!state_->shape->covers(p)) {
     return false;
   }
   return state_->draw.depth_mode != DepthMode::clip || state_->known_depth().keeps(p, DepthMode::clip);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The first oracle: each strip of rows is drawn on its own, triangle by triangle, by the rules of docs/semantics.md as
+// The first oracle: each strip of rows is drawn on its own, primitive by primitive, by the rules of docs/semantics.md as
 // they stand.
 #include <algorithm>
 #include <atomic>
@@ -19,7 +19,7 @@ namespace surefill::oracle {
 
 namespace {
 
-// M10: strips add to the numbers of the same triangle at the same time.
+// M10: strips add to the numbers of the same primitive at the same time.
 void add_to(std::uint64_t& number, std::uint64_t summand) {
   std::atomic_ref(number).fetch_add(summand, std::memory_order_relaxed);
 }
@@ -66,8 +66,8 @@ class Strip {
     if (!wanted_.counts && !wanted_.visibility) return;
     for (std::uint32_t number = 0; number < draws_.size(); ++number) {
       const Draw& draw = draws_[number];
-      for (std::size_t t = 0; t < draw.indices.size() / 3; ++t) {
-        if (is_finite(draw, t)) render_triangle(number, t);
+      for (std::size_t t = 0; t < primitives_of(draw); ++t) {
+        if (is_finite(draw, t)) render_primitive(number, t);
       }
     }
     if (wanted_.visibility) resolve();
@@ -105,7 +105,7 @@ class Strip {
            static_cast<std::size_t>(n);
   }
 
-  void render_triangle(std::uint32_t number, std::size_t t) {
+  void render_primitive(std::uint32_t number, std::size_t t) {
     const Draw& draw = draws_[number];
     const Shape shape(target_.origin, draw, t);
     const int det = shape.cone() ? shape.cone()->sign_of_det() : 0;
@@ -131,6 +131,10 @@ class Strip {
                          [&](int x, int y) { count(draw, t, place(x, y, 0), is_front(draw, det)); });
     } else if (shape.cone()) {
       visit_covered(*shape.cone(), rect, pattern_, kAllEdges, [&](int x, int y, int n) { fragment(x, y, n, det); });
+    } else if (shape.line()) {
+      visit_covered(*shape.line(), rect, pattern_, [&](int x, int y, int n) { fragment(x, y, n, 0); });
+    } else if (shape.square()) {
+      visit_covered(*shape.square(), rect, pattern_, [&](int x, int y, int n) { fragment(x, y, n, 0); });
     } else {
       visit_snapped(draw, *shape.snapped(), rect, fragment);
     }
@@ -174,7 +178,7 @@ class Strip {
   void count(const Draw& draw, std::size_t t, std::size_t s, bool front) {
     ++covered_;
     if (!target_.count.empty()) ++target_.count[first_ + s];
-    if (!target_.winding.empty()) {
+    if (!target_.winding.empty() && draw.primitive == Primitive::triangles) {
       std::int32_t& winding = target_.winding[first_ + s];
       winding = static_cast<std::int32_t>(static_cast<std::uint32_t>(winding) + (front ? 1u : ~0u));
     }
@@ -241,7 +245,7 @@ class Strip {
   Rect rows_;                         // in space
   std::size_t total_, first_, size_;  // samples: of the target, before the strip, of the strip
   Layers layers_;
-  std::uint64_t covered_ = 0;  // samples of the strip at which the triangle that is drawn is counted
+  std::uint64_t covered_ = 0;  // samples of the strip at which the primitive that is drawn is counted
   std::vector<int> winding_;
   std::unordered_map<std::uint64_t, std::unique_ptr<Visible>> visible_;
 };

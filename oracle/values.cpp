@@ -79,7 +79,19 @@ Depth::Depth(const Edges& edges, const std::vector<IntegerVertex>* clipped, cons
   }
 }
 
+Depth::Depth(const Line& line) : line_(&line) {}
+
+Depth::Depth(const Square& square)
+    : constant_(true), smallest_{square.vertex().z, square.vertex().w}, largest_(smallest_) {}
+
 void Depth::real(Point p, Integer& n, Integer& d) const {
+  if (line_ != nullptr) {
+    thread_local Integer w0, w1;
+    line_->weights_at(p, w0, w1);
+    n = w0 * line_->vertex(0).z + w1 * line_->vertex(1).z;
+    d = w0 * line_->vertex(0).w + w1 * line_->vertex(1).w;
+    return;
+  }
   if (constant_) {
     n = smallest_.n, d = smallest_.d;
     return;
@@ -131,8 +143,8 @@ void barycentrics(const Weights& weights, std::span<float, 3> out) {
   for (std::size_t i = 0; i < 3; ++i) out[i] = nearest_finite(weights.w[i], sum);
 }
 
-Component::Component(const Edges& edges, const std::array<float, 3>& values, Interpolation interpolation, bool grid)
-    : first_(stored(values[0])), interpolation_(interpolation), grid_(grid) {
+Component::Component(const Edges& edges, const std::array<float, 3>& values, Interpolation interpolation, bool own_sum)
+    : first_(stored(values[0])), interpolation_(interpolation), own_sum_(own_sum) {
   if (interpolation == Interpolation::flat) return;
   const int exponent = std::min(common_exponent(values), 0);
   shift_ = static_cast<mp_bitcnt_t>(-exponent);
@@ -152,7 +164,7 @@ float Component::at(const Weights& weights) const {
   n = u_[0] * w[0] + u_[1] * w[1] + u_[2] * w[2];
   if (interpolation_ == Interpolation::perspective) {
     d = w[0] + w[1] + w[2];
-  } else if (!grid_) {
+  } else if (!own_sum_) {
     d = det16_;
   } else {
     d = divisor_[0] * w[0] + divisor_[1] * w[1] + divisor_[2] * w[2];

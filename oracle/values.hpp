@@ -12,6 +12,7 @@
 #include "oracle/coverage.hpp"
 #include "oracle/exact.hpp"
 #include "oracle/grid.hpp"
+#include "oracle/lines.hpp"
 
 namespace surefill::oracle {
 
@@ -42,10 +43,12 @@ class Edges {
 };
 
 // Depth of a triangle that the grid does not touch (`clipped` is null), or of one that was clipped to these corners
-// (G2); biased if there is a bias (I8).
+// (G2), biased if there is a bias (I8); or of a line or a point (I6, I7).
 class Depth {
  public:
   Depth(const Edges& edges, const std::vector<IntegerVertex>* clipped, const std::optional<DepthBias>& bias);
+  explicit Depth(const Line& line);  // which outlives it
+  explicit Depth(const Square& square);
 
   // The stored depth at p, or nothing where I5 clips it. Precondition: without a grid, D != 0.
   std::optional<float> at(Point p, DepthMode mode) const;
@@ -57,10 +60,11 @@ class Depth {
 
   Edges::Plane plane_;
   Integer denominator_;
-  bool constant_;  // D = 0: the smallest corner
-  bool clamped_;   // to the corners
+  bool constant_ = false;  // D = 0: the smallest corner; a point's
+  bool clamped_ = false;   // to the corners
   Ratio smallest_, largest_;
   std::optional<Ratio> bias_;  // c + s m
+  const Line* line_ = nullptr;
 };
 
 // The weights at one place: vertex i weighs w_i / sum w. on_vertex_0: vertex 0 stands in (G2).
@@ -75,21 +79,22 @@ void weights_at(const Edges& edges, Point p, bool grid, Weights& weights);
 // I3 at these weights. Precondition: their sum is positive, or vertex 0 stands in.
 void barycentrics(const Weights& weights, std::span<float, 3> out);
 
-// One component of an attribute (I2).
+// One component of an attribute (I2, I7). `own_sum`: in noperspective D is the sum of W_i times the weights, as it is with a
+// grid and of lines.
 class Component {
  public:
-  Component(const Edges& edges, const std::array<float, 3>& values, Interpolation interpolation, bool grid);
+  Component(const Edges& edges, const std::array<float, 3>& values, Interpolation interpolation, bool own_sum);
   // Precondition: as barycentrics.
   float at(const Weights& weights) const;
 
  private:
   std::array<Integer, 3> u_;        // the vertex values times 2^shift_; noperspective: times W_i as well
-  std::array<Integer, 3> divisor_;  // noperspective with a grid: W_i
+  std::array<Integer, 3> divisor_;  // noperspective with its own sum: W_i
   Integer det16_;
   mp_bitcnt_t shift_ = 0;
   float first_;
   Interpolation interpolation_;
-  bool grid_;
+  bool own_sum_;
 };
 
 }  // namespace surefill::oracle

@@ -70,7 +70,7 @@ class Generator {
     for (int n = between(1, 3); n > 0; --n) {
       result.draws.push_back(draw(asked, kind));
       result.draws.back().state.first_index = next + static_cast<std::uint32_t>(between(0, 3));
-      next = result.draws.back().state.first_index + static_cast<std::uint32_t>(result.draws.back().triangles());
+      next = result.draws.back().state.first_index + static_cast<std::uint32_t>(result.draws.back().primitives());
     }
     return result;
   }
@@ -366,7 +366,7 @@ TEST_P(Relations, LayersT10) {
         peeled += u >= total;
         for (Mesh& mesh : rest.draws) {
           const std::uint32_t t = layers.index[u] - mesh.state.first_index;
-          if (t < mesh.triangles()) leave_out(mesh, t);
+          if (t < mesh.primitives()) leave_out(mesh, t);
         }
         peel = draw(rest);
       }
@@ -392,7 +392,7 @@ TEST_P(Relations, LaterIsReversedV5) {
     std::ranges::reverse(reversed.draws);
     for (Mesh& mesh : reversed.draws) {
       const Mesh forward = mesh;
-      const std::size_t triangles = mesh.triangles();
+      const std::size_t triangles = mesh.primitives();
       mesh.identifiers.clear();
       for (std::size_t t = 0; t < triangles; ++t) {
         const std::size_t from = triangles - 1 - t;

@@ -32,10 +32,10 @@ inline constexpr Oracle kOracles[] = {{"the first oracle", oracle::render},
 inline constexpr Interpolation kInterpolations[] = {Interpolation::perspective, Interpolation::noperspective,
                                                     Interpolation::flat};
 
-// Triangles with one value a vertex, drawn as three attributes of different interpolation.
+// Triangles, lines or points with one value a vertex, drawn as three attributes of different interpolation.
 struct Mesh {
   std::vector<Vertex> vertices;
-  std::vector<std::uint32_t> indices, identifiers;  // without indices: three vertices after another
+  std::vector<std::uint32_t> indices, identifiers;  // without indices: one vertex after another
   std::vector<float> values;
   Draw state;
 
@@ -43,7 +43,11 @@ struct Mesh {
   explicit Mesh(std::vector<Vertex> v, std::vector<float> u = {}) : vertices(std::move(v)), values(std::move(u)) {
     for (std::uint32_t i = 0; i < vertices.size(); ++i) indices.push_back(i);
   }
-  std::size_t triangles() const { return indices.size() / 3; }
+  std::size_t primitives() const {
+    return indices.size() / (state.primitive == Primitive::triangles ? 3u
+                             : state.primitive == Primitive::lines   ? 2u
+                                                                     : 1u);
+  }
 };
 
 // A frame, and what a call makes of it. Every output that the frame may have is asked for, attributes if all draws have
@@ -104,8 +108,8 @@ inline Image render(Render oracle, const Image::Asked& asked, const std::vector<
   target.count = ask(image.count, total);
   target.index = ask(image.index, all);
   for (std::size_t n = 0; n < meshes.size(); ++n) {
-    draws[n].covered = ask(image.covered[n], meshes[n].triangles());
-    if (!conservative) draws[n].visible = ask(image.visible[n], meshes[n].triangles());
+    draws[n].covered = ask(image.covered[n], meshes[n].primitives());
+    if (!conservative) draws[n].visible = ask(image.visible[n], meshes[n].primitives());
   }
   std::vector<float> depth, barycentrics, attributes[3];
   std::array<AttributeTarget, 3> outs;

@@ -57,6 +57,19 @@ corpus::Scene mixed_scene(const Category& category, std::uint64_t seed, int max_
 // V4, V5, I8, C5): each pair of them meets.
 corpus::Scene modes_scene(const Category& category, std::uint64_t seed, int max_size, int max_triangles);
 
+// What a generated line aims at; a point is its first end.
+struct LineCategory {
+  const char* name;  // "line-diagonal", "line-one-behind", ...
+  const char* aims;  // one sentence
+  // The two ends for a target of this size.
+  std::array<Vertex, 2> (*line)(Random& random, int width, int height);
+};
+std::span<const LineCategory> line_categories();
+
+// A scene of lines and points of this category, others mixed in, with every mode that they may have (M7): widths, samples
+// and their places, layers, origin, depth tests, attributes. `category` is one of line_categories().
+corpus::Scene lines_scene(const LineCategory& category, std::uint64_t seed, int max_size, int max_primitives);
+
 // Attributes of triangles all over each other, several to a row of pixels: arrays of every size, values of every
 // amount. Some are thin ones along rows, far from the screen's origin, with W of all sizes: edges have errors, each its
 // own.

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "properties/generators/generators.hpp"
+#include "properties/generators/scene_parts.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -78,6 +78,8 @@ class AttributeValues {
   int exponent_;
 };
 
+}  // namespace
+
 void add_attributes(Scene& scene, Random& random) {
   const int count = random.between(0, 3);
   std::vector<AttributeValues> sources;
@@ -100,6 +102,8 @@ void add_attributes(Scene& scene, Random& random) {
   }
 }
 
+namespace {
+
 // Appends a triangle: of its own vertices or sharing an edge, or equal to the one before (ties of every kind).
 void append_triangle(SceneDraw& draw, const std::array<Vertex, 3>& vertices, Random& random) {
   const auto first = static_cast<std::uint32_t>(draw.vertices.size());
@@ -121,6 +125,8 @@ void append_triangle(SceneDraw& draw, const std::array<Vertex, 3>& vertices, Ran
   }
   draw.triangles.push_back(triangle);
 }
+
+}  // namespace
 
 Scissor random_scissor(const Scene& scene, Random& random) {
   const int x0 = random.between(-2, scene.width), y0 = random.between(-2, scene.height);
@@ -154,6 +160,8 @@ void add_initial_depth(Scene& scene, Random& random) {
         one_of(random, {0.5f, 1.0f, 0.0f, -0.0f, kInfinity, -kInfinity, std::numeric_limits<float>::quiet_NaN(),
                         0x1p-149f, static_cast<float>(random.unit())}));
 }
+
+namespace {
 
 void add_draw_state(SceneDraw& draw, const Scene& scene, Random& random) {
   draw.fill_rule = static_cast<FillRule>(random.below(8));

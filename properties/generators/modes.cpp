@@ -4,7 +4,7 @@
 // triangles, the four depth tests, bias, and the four conservative modes with their index.
 #include <algorithm>
 
-#include "properties/generators/generators.hpp"
+#include "properties/generators/scene_parts.hpp"
 
 namespace surefill::properties {
 namespace {
@@ -17,7 +17,8 @@ Value one_of(Random& random, const Value (&values)[Count]) {
   return values[random.below(Count)];
 }
 
-// Vertices and scissors go along with a far origin, rounded; a near one stays under what is drawn, so that it is cut.
+}  // namespace
+
 void set_origin(Scene& scene, Random& random) {
   if (random.one_in(2)) {
     scene.origin = {random.between(-4, 8), random.between(-4, 8)};
@@ -49,6 +50,8 @@ void set_locations(Scene& scene, Random& random) {
     if (n > 0 && random.one_in(4)) scene.sample_locations.back() = scene.sample_locations.front();
   }
 }
+
+namespace {
 
 // The first draw conservative, with a degenerate triangle among its own.
 void set_conservative(Scene& scene, Random& random) {

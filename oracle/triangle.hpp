@@ -19,6 +19,9 @@ namespace surefill::oracle {
 // V2: the index of triangle t.
 std::uint32_t index_of(const Draw& draw, std::size_t t);
 
+// Floats from one sample of an attribute image to the next.
+std::size_t attribute_step(const AttributeTarget& image);
+
 // B1: every position and every attribute of the triangle is finite.
 bool is_finite(const Draw& draw, std::size_t t);
 

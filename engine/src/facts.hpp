@@ -78,6 +78,11 @@ inline float empty_depth(DepthTest test) {
   return is_reversed(test) ? -kInfinity : kInfinity;
 }
 
+// Floats from one sample to the next.
+inline std::size_t stride_of(const AttributeTarget& image) {
+  return image.stride != 0 ? image.stride : image.components;
+}
+
 // ---- of a draw
 inline std::size_t triangles_of(const Draw& draw) {
   return draw.indices.size() / 3;

@@ -487,7 +487,8 @@ std::string text_of(const Test& test, bool with_expectations) {
     }
     text += fmt::format(" {}", frame.scene.draws.size());
     for (const corpus::SceneDraw& draw : frame.scene.draws) {
-      text += " " + state_text(draw) + fmt::format(" {} {}", draw.first_index.value_or(0), draw.vertices.size());
+      const std::uint32_t first = has_identifiers(draw) ? 0 : draw.first_index.value_or(0);
+      text += " " + state_text(draw) + fmt::format(" {} {}", first, draw.vertices.size());
       for (const corpus::SceneVertex& v : draw.vertices)
         text += " " + hex(v.x) + " " + hex(v.y) + " " + hex(v.z) + " " + hex(v.w);
       text += fmt::format(" {}", draw.triangles.size());

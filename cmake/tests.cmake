@@ -18,7 +18,7 @@ function(define_for)
 endfunction()
 file(GLOB textbook_tests ${tests}/textbook/tests/*.cpp)
 define_for(${textbook_tests} ${tests}/corpus/tests/python_words_test.cpp ${tests}/corpus/tests/scene_test.cpp
-  ${tests}/engine/tests/hashes_test.cpp
+  ${tests}/engine/tests/attribute_stride_test.cpp ${tests}/engine/tests/hashes_test.cpp
   DEFINE SUREFILL_CORPUS="${PROJECT_SOURCE_DIR}/corpus")
 if(SUREFILL_SANITIZE)
   # Instrumented code runs ten to thirty times slower: every test, with a share of its random cases.

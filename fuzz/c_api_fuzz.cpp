@@ -382,8 +382,9 @@ class Call : CallMemory {
                                     t.sample_location_count};
     cpp_target_.winding = {twin(t.winding), t.winding_count};
     for (std::size_t k = 0; t.attributes != nullptr && k < t.attribute_count; ++k) {
-      cpp_attribute_targets_.push_back(
-          {{twin(t.attributes[k].values), t.attributes[k].value_count}, t.attributes[k].components});
+      cpp_attribute_targets_.push_back({{twin(t.attributes[k].values), t.attributes[k].value_count},
+                                        t.attributes[k].components,
+                                        t.attributes[k].stride});
     }
     const AttributeTarget* list = t.attributes == nullptr ? nullptr : cpp_attribute_targets_.data();
     cpp_target_.attributes = {list, t.attribute_count};

@@ -82,6 +82,14 @@ void store_layers(Frame& frame) {
   }
 }
 
+// The attributes of empty samples (V1); what lies between them is not the image's.
+void clear(const AttributeTarget& image, std::size_t samples) {
+  for (std::size_t s = 0; s < samples && !image.values.empty(); ++s) {
+    const std::size_t begin = image.stride == 0 ? s * image.components : s * image.stride;
+    std::ranges::fill(image.values.subspan(begin, image.components), 0.0f);
+  }
+}
+
 }  // namespace
 
 Frame::Frame(const Target& target_asked, std::span<const Draw> draws) : target(target_asked) {
@@ -113,7 +121,8 @@ void render(const Target& target, std::span<const Draw> draws, int threads) {
   std::ranges::fill(target.winding, 0);
   std::ranges::fill(target.index, kNoTriangle);
   std::ranges::fill(target.barycentrics, 0.0f);
-  for (const AttributeTarget& out : target.attributes) std::ranges::fill(out.values, 0.0f);
+  for (const AttributeTarget& out : target.attributes)
+    clear(out, frame.total * static_cast<std::size_t>(target.layers));
   for (const Draw& draw : draws) {
     std::ranges::fill(draw.covered, 0u);
     std::ranges::fill(draw.visible, 0u);

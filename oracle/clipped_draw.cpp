@@ -380,7 +380,7 @@ void DrawRun::store_weighted(const Triangle& triangle, const PlaceWeights& weigh
       Rational value = u[0];
       if (array.interpolation == Interpolation::perspective) value = combine(weights.perspective, u);
       if (array.interpolation == Interpolation::noperspective) value = combine(weights.noperspective, u);
-      out.values[place * out.components + c] = nearest_float(value);
+      out.values[place * (out.stride != 0 ? out.stride : out.components) + c] = nearest_float(value);
     }
   }
 }

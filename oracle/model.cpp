@@ -272,9 +272,15 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
   }
   const Signs area = signs_of_area(placed.boxes);
   const bool kept = d == 0 ? area.all_zero() : d > 0 ? area.all_positive() : area.all_negative();
+  // Who compares D with what came of it has D rounded, too.
+  const Edges edges(t);
+  const bool unsure = (model.x.bits >= 0 || model.y.bits >= 0) && std::abs(edges.d) <= kThin * edges.d_magnitude &&
+                      (model.culled != Cull::none || model.turned != Turned::as_grid);
   const bool points = std::all_of(placed.boxes.begin(), placed.boxes.end(), [](const Box& b) { return b.is_point(); });
   if (kept && d == 0) {
     placed.kind = model.draws_flat ? Placed::Kind::open : Placed::Kind::nothing;
+  } else if (kept && unsure) {
+    placed.kind = Placed::Kind::open;
   } else if (kept && culled) {
     placed.kind = Placed::Kind::nothing;
   } else if (!std::all_of(t.begin(), t.end(), drawn)) {

@@ -88,14 +88,16 @@ class Strip {
     if (!target_.winding.empty()) std::ranges::fill(target_.winding.subspan(first_, size_), 0);
     if (wanted_.lowest_index) std::ranges::fill(target_.index.subspan(first_, size_), kNoTriangle);
     for (std::size_t n = 0; n < static_cast<std::size_t>(target_.layers); ++n) {
-      clear(target_.barycentrics, n, 3);
-      for (const AttributeTarget& attribute : target_.attributes) clear(attribute.values, n, attribute.components);
+      clear(target_.barycentrics, n, 3, 3);
+      for (const AttributeTarget& image : target_.attributes)
+        clear(image.values, n, image.components, attribute_step(image));
     }
   }
 
-  void clear(std::span<float> values, std::size_t layer, std::size_t components) {
+  void clear(std::span<float> values, std::size_t layer, std::size_t components, std::size_t step) {
     if (values.empty()) return;
-    std::ranges::fill(values.subspan(components * (layer * total_ + first_), components * size_), 0.0f);
+    const std::size_t begin = layer * total_ + first_;
+    for (std::size_t s = begin; s < begin + size_; ++s) std::ranges::fill(values.subspan(s * step, components), 0.0f);
   }
 
   // The place of a sample in this strip.
@@ -230,12 +232,12 @@ class Strip {
   }
 
   void copy_values(std::size_t from, std::size_t to) {
-    const auto copy = [&](std::span<float> values, std::size_t components) {
+    const auto copy = [&](std::span<float> values, std::size_t components, std::size_t step) {
       if (values.empty()) return;
-      std::ranges::copy(values.subspan(from * components, components), values.subspan(to * components).begin());
+      std::ranges::copy(values.subspan(from * step, components), values.subspan(to * step).begin());
     };
-    copy(target_.barycentrics, 3);
-    for (const AttributeTarget& attribute : target_.attributes) copy(attribute.values, attribute.components);
+    copy(target_.barycentrics, 3, 3);
+    for (const AttributeTarget& image : target_.attributes) copy(image.values, image.components, attribute_step(image));
   }
 
   const Target& target_;

@@ -49,6 +49,10 @@ std::uint32_t index_of(const Draw& draw, std::size_t t) {
   return draw.identifiers.empty() ? draw.first_index + static_cast<std::uint32_t>(t) : draw.identifiers[t];
 }
 
+std::size_t attribute_step(const AttributeTarget& image) {
+  return image.stride == 0 ? image.components : image.stride;
+}
+
 bool is_finite(const Draw& draw, std::size_t t) {
   for (const std::uint32_t corner : corners_of(draw, t)) {
     const Vertex& v = draw.vertices[corner];
@@ -131,7 +135,7 @@ void Visible::store(int x, int y, std::size_t sample) {
   for (const AttributeTarget& attribute : target_.attributes) {
     if (attribute.values.empty()) continue;
     for (std::size_t c = 0; c < attribute.components; ++c) {
-      attribute.values[sample * attribute.components + c] = components_[next++].at(weights_);
+      attribute.values[sample * attribute_step(attribute) + c] = components_[next++].at(weights_);
     }
   }
 }

@@ -24,6 +24,9 @@ std::size_t primitives_of(const Draw& draw);
 // V2: the index of primitive t.
 std::uint32_t index_of(const Draw& draw, std::size_t t);
 
+// Floats from one sample of an attribute image to the next.
+std::size_t attribute_step(const AttributeTarget& image);
+
 // B1: every position and every attribute of the primitive is finite.
 bool is_finite(const Draw& draw, std::size_t t);
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """What Python costs: medians of pairs of calls in turn, in the processor time of this thread.
 
-    PYTHONPATH=build/wheel/python python3 python/measure.py
+    SUREFILL_LIBRARY=build/wheel/python/surefill/libsurefill.so python3 python/measure.py
 
 The C call is surefill_render through ctypes, with everything prepared and its buffers used again."""
 import ctypes

@@ -147,6 +147,11 @@ inline float empty_depth(DepthTest test) {
   return is_reversed(test) ? -kInfinity : kInfinity;
 }
 
+// Floats from one sample to the next.
+inline std::size_t stride_of(const AttributeTarget& image) {
+  return image.stride != 0 ? image.stride : image.components;
+}
+
 // ---- of a draw
 // The vertices of each of its primitives; of what is no enumerator, 1.
 inline std::size_t corners_of(const DrawState& draw) {
@@ -1915,7 +1920,15 @@ class Outputs {
     bool apart = add(Bytes(target.count)) && add(Bytes(target.index)) && add(Bytes(target.depth)) &&
                  add(Bytes(target.barycentrics)) && add(Bytes(target.winding));
     if (target.attributes.data() == nullptr || target.attributes.size() > kMaxAttributes) return apart;
-    for (const AttributeTarget& attribute : target.attributes) apart = apart && add(Bytes(attribute.values));
+    const std::size_t buffers = count_;
+    for (const AttributeTarget& image : target.attributes) {
+      const Bytes bytes(image.values);
+      apart = apart && !touches(bytes, 0, buffers) && !numbers_touch(bytes);
+      for (std::size_t k = 0; apart && k < count_ - buffers; ++k)
+        apart = !bytes_[buffers + k].overlaps(bytes) || lie_side_by_side(target.attributes[k], image);
+      if (!apart) return false;
+      bytes_[count_++] = bytes;
+    }
     return apart;
   }
 
@@ -1927,17 +1940,28 @@ class Outputs {
   }
   bool has_numbers() const { return !draws_.empty(); }
 
-  bool touched_by(const Bytes& bytes) const {
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (bytes_[i].overlaps(bytes)) return true;
-    }
-    for (const Draw& draw : draws_) {
-      if (Bytes(draw.covered).overlaps(bytes) || Bytes(draw.visible).overlaps(bytes)) return true;
-    }
-    return false;
-  }
+  bool touched_by(const Bytes& bytes) const { return touches(bytes, 0, count_) || numbers_touch(bytes); }
 
  private:
+  bool touches(const Bytes& bytes, std::size_t begin, std::size_t end) const {
+    return std::any_of(bytes_ + begin, bytes_ + end, [&](const Bytes& output) { return output.overlaps(bytes); });
+  }
+  bool numbers_touch(const Bytes& bytes) const {
+    return std::any_of(draws_.begin(), draws_.end(), [&](const Draw& draw) {
+      return Bytes(draw.covered).overlaps(bytes) || Bytes(draw.visible).overlaps(bytes);
+    });
+  }
+
+  // Two images whose memory overlaps: does each keep to its own components of every sample? By the distance of their
+  // first ones, modulo the stride that both have.
+  static bool lie_side_by_side(const AttributeTarget& a, const AttributeTarget& b) {
+    const std::uint64_t stride = stride_of(a) * std::uint64_t{sizeof(float)};
+    if (stride_of(a) != stride_of(b) || stride == 0) return false;
+    const std::uint64_t from = Bytes(a.values).begin % stride, to = Bytes(b.values).begin % stride;
+    const std::uint64_t distance = (to + stride - from) % stride;
+    return a.components * sizeof(float) <= distance && distance + b.components * sizeof(float) <= stride;
+  }
+
   static constexpr std::size_t kMost = 7 + kMaxAttributes;  // five buffers, the attributes, statistics, diagnostics
   Bytes bytes_[kMost];
   std::size_t count_ = 0;
@@ -2538,7 +2562,7 @@ void DrawFragments::shade(std::uint32_t position, int x, int y, std::size_t plac
       float u[3] = {};
       for (std::size_t i = 0; i < corners_of(draw_); ++i)
         u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
-      out.values[place * out.components + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
+      out.values[place * stride_of(out) + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
     }
   }
 }
@@ -2552,7 +2576,9 @@ void clear(const Target& target) {
   std::fill(target.index.begin(), target.index.end(), kNoTriangle);
   std::fill(target.barycentrics.begin(), target.barycentrics.end(), 0.0f);
   for (const AttributeTarget& attribute : target.attributes) {
-    std::fill(attribute.values.begin(), attribute.values.end(), 0.0f);
+    const std::size_t samples = static_cast<std::size_t>(target.layers) * sample_total(target);
+    for (std::size_t s = 0; s < samples && !attribute.values.empty(); ++s)
+      std::fill_n(&attribute.values[s * stride_of(attribute)], attribute.components, 0.0f);
   }
 }
 
@@ -2564,7 +2590,7 @@ void copy_shading(const Target& target, std::size_t from, std::size_t to) {
   for (const AttributeTarget& out : target.attributes) {
     if (out.values.empty()) continue;
     for (std::size_t c = 0; c < out.components; ++c) {
-      out.values[to * out.components + c] = out.values[from * out.components + c];
+      out.values[to * stride_of(out) + c] = out.values[from * stride_of(out) + c];
     }
   }
 }
@@ -2795,6 +2821,15 @@ bool locations_ok(const Target& target) {
   return true;
 }
 
+// Of a good number of components.
+bool fits(const AttributeTarget& image, std::uint64_t samples) {
+  const std::uint64_t stride = stride_of(image), components = image.components, size = image.values.size();
+  if (stride <= components) return stride == components && fits(image.values, components * samples);
+  if (null_but_not_empty(image.values)) return false;
+  // Of up to 2^36 samples and 2^32 - 1 floats each, the product is compared as a quotient.
+  return size == 0 || (size >= components && (size - components) / stride >= samples - 1);
+}
+
 Status validate_target(const Target& target, Outputs& outputs) {
   if (!size_ok(target)) return Status::target_size;
   if (!samples_ok(target)) return Status::target_samples;
@@ -2810,10 +2845,8 @@ Status validate_target(const Target& target, Outputs& outputs) {
   if (null_but_not_empty(target.attributes) || target.attributes.size() > kMaxAttributes)
     return Status::target_attributes;
   for (const AttributeTarget& attribute : target.attributes) {
-    if (attribute.components < 1 || attribute.components > kMaxComponents ||
-        !fits(attribute.values, attribute.components * in_layers)) {
-      return Status::target_attributes;
-    }
+    if (attribute.components < 1 || attribute.components > kMaxComponents) return Status::target_attributes;
+    if (!fits(attribute, in_layers)) return Status::target_attributes;
   }
   if (!fits(target.initial_depth, total)) return Status::target_initial_depth;
   if (target.depth_test > DepthTest::greater_equal) return Status::target_depth_test;
@@ -2993,7 +3026,7 @@ const char* status_text(Status status) noexcept {
     case Status::target_barycentrics:
       return "the barycentrics buffer's size is not 3 floats for each sample of the target's layers";
     case Status::target_attributes:
-      return "an attribute target has components outside 1..4 or a wrong size, or there are over 16";
+      return "an attribute target has components outside 1..4, a wrong size or stride, or there are over 16";
     case Status::target_initial_depth:
       return "the initial depth's size is not that of the target";
     case Status::target_overlap:

@@ -105,10 +105,11 @@ enum class Status : std::uint32_t {
   target_index,               // index is neither empty nor of layers * sample_total(target) elements
   target_depth,               // depth: the same
   target_barycentrics,        // barycentrics: neither empty nor 3 * layers * sample_total(target) elements
-  target_attributes,          // an attribute target: components outside 1..4, too many, or the wrong buffer size
+  target_attributes,          // an attribute target: components outside 1..4, too many, the wrong buffer size or stride
   target_initial_depth,       // initial_depth is neither empty nor of sample_total(target) elements
   target_overlap,             // an output, statistics and answers among them, overlaps another or what the call reads:
-                              // only initial_depth and depth may be the same buffer
+                              // only initial_depth and depth may be the same buffer, and attribute images of one
+                              // stride may lie in one another, component beside component
   target_depth_test,          // not an enumerator of DepthTest
   target_attribute_location,  // not an enumerator of AttributeLocation
   draws,                      // the list of draws is null but not empty
@@ -282,10 +283,12 @@ struct Draw : DrawState {
   std::span<std::uint64_t> visible;  // at how many it is the visible one when all draws are drawn, in layer 0
 };
 
-// An attribute image. The value of component c at sample s is values[s * components + c].
+// An attribute image. The value of component c at sample s is values[s * stride + c]; what lies between is left as it is.
 struct AttributeTarget {
-  std::span<float> values;  // components * layers * sample_total(target) floats, or empty: not asked for
+  std::span<float> values;  // of layers * sample_total(target) samples: components * that, with a stride at least
+                            // (that - 1) * stride + components; or empty: not asked for
   std::uint32_t components = 1;
+  std::uint32_t stride = 0;  // floats from one sample to the next; 0 means `components`
 };
 
 // A place within a pixel, from its top left corner, in 1/16 pixel.

@@ -193,7 +193,7 @@ int run_verify(VerifyOptions options, const std::function<std::string()>& corpus
     lines.assign(std::istreambuf_iterator<char>(std::cin), {});
   } else {
     lines = read_all(options.results);
-    if (has_ending(options.results, ".json")) lines = vectors::lines_of_json(lines, options.results);
+    if (has_ending(options.results, ".json")) lines = vectors::lines_of_json(lines, options.results, owed);
   }
   const vectors::Verdict verdict = vectors::verify(owed, lines, smoke);
   std::fputs(verdict.text.c_str(), stdout);

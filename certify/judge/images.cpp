@@ -144,6 +144,7 @@ class Look {
        std::span<const corpus::SceneAttribute> names)
       : terms_(terms), frame_(frame), image_(image), names_(names) {
     for (std::size_t d = 0; d < frame.draws.size(); ++d) {
+      models_.push_back(model_of_draw(terms, frame, frame.draws[d]));
       for (std::size_t t = 0; 3 * t < frame.draws[d].indices.size(); ++t) places_.push_back({d, t});
     }
   }
@@ -159,24 +160,31 @@ class Look {
         if (got < counts.least[s] || got > counts.most[s]) {
           const std::string wanted = known ? std::to_string(counts.least[s])
                                            : std::to_string(counts.least[s]) + " to " + std::to_string(counts.most[s]);
-          differs("count", s, wanted, std::to_string(got));
+          differs("count", s, wanted, std::to_string(got), known);
           continue;
         }
       }
+      if (!looks.values) continue;
       // Where one triangle covers a sample it is the visible one; where none does, the sample is empty.
-      if (!looks.values || !known || counts.least[s] > 1 || frame_.initial_depth) continue;
-      if (counts.least[s] == 0) {
+      if (known && !frame_.initial_depth && counts.least[s] == 0) {
         look_at_empty(s);
-      } else if (counts.only[s] != kNoTriangle) {
+      } else if (known && !frame_.initial_depth && counts.only[s] != kNoTriangle) {
         look_at_values(s, counts.only[s]);
+      } else if (counts.most[s] > 0) {
+        look_at_ranges(s, counts);
       }
     }
     return std::move(result_);
   }
 
  private:
-  void differs(const std::string& what, std::size_t s, const std::string& expected, const std::string& actual) {
-    if (!result_.differs[s]) ++result_.differences;
+  void differs(const std::string& what, std::size_t s, const std::string& expected, const std::string& actual,
+               bool known = true) {
+    if (!result_.differs[s]) {
+      ++result_.differences;
+      // What is wrong at an open sample has been judged there.
+      if (!known) ++result_.samples, --result_.open;
+    }
     result_.differs[s] = 1;
     if (!result_.finding.empty()) return;
     result_.sample = s;
@@ -198,7 +206,7 @@ class Look {
   void look_at_values(std::size_t s, std::uint32_t which) {
     const auto [d, t] = places_[which];
     const Draw& draw = frame_.draws[d];
-    const Model model = model_of_draw(terms_, frame_, draw);
+    const Model& model = models_[d];
     const Triangle triangle = triangle_of(draw, t);
     const Edges edges(triangle.vertices);
     const Place at = place_of(model, frame_, s);
@@ -211,7 +219,7 @@ class Look {
       differs("index", s, named(identifier_of(draw, t)), named(image_.index[s]));
       return;
     }
-    if (!image_.depth.empty()) {
+    if (!image_.depth.empty() && draw.depth_write) {
       Range allowed = granted;
       if (draw.depth_mode == DepthMode::clamp) {
         const double step = format_step(model) + 0x1p-23;
@@ -223,8 +231,6 @@ class Look {
     // With several samples, where in the pixel a value is taken is for M1 to say and the standards to leave open.
     if (frame_.samples > 1) return;
     const std::array<double, 3> ones{1, 1, 1};
-    std::array<double, 3> w{};
-    for (std::size_t i = 0; i < 3; ++i) w[i] = triangle.vertices[i].w;
     const auto look = [&](const std::string& name, Deviation& deviation, const std::array<double, 3>& above,
                           const std::array<double, 3>& below, double largest, float actual) {
       if (!std::isfinite(largest)) return;
@@ -240,21 +246,168 @@ class Look {
     }
     for (std::size_t k = 0; k < image_.attributes.size() && k < draw.attributes.size(); ++k) {
       if (image_.attributes[k].empty()) continue;
-      const AttributeArray& array = draw.attributes[k];
-      const std::size_t stride = array.stride == 0 ? array.components : array.stride;
-      for (std::size_t c = 0; c < array.components; ++c) {
-        std::array<double, 3> u{}, above{}, below = ones;
-        for (std::size_t i = 0; i < 3; ++i) above[i] = u[i] = array.values[triangle.indices[i] * stride + c];
-        if (array.interpolation == Interpolation::flat) u = above = {u[0], u[0], u[0]};
-        if (array.interpolation == Interpolation::noperspective) {
-          below = w;
-          for (std::size_t i = 0; i < 3; ++i) above[i] = u[i] * w[i];
-        }
-        const double largest = std::max({std::abs(u[0]), std::abs(u[1]), std::abs(u[2])});
-        look(names_[k].name, result_.deviations.attributes, above, below, largest,
-             image_.attributes[k][array.components * s + c]);
+      for (std::size_t c = 0; c < draw.attributes[k].components; ++c) {
+        const Corners corners = attribute_of(which, k, c);
+        look(names_[k].name, result_.deviations.attributes, corners.above, corners.below, corners.largest,
+             image_.attributes[k][draw.attributes[k].components * s + c]);
       }
     }
+  }
+
+  // R13: where somebody is visible, whose values are in whose range. Without an index nobody knows who it is, and without
+  // a count nobody whether it is anyone.
+  void look_at_ranges(std::size_t s, const Counts& counts) {
+    const bool known = counts.least[s] == counts.most[s];
+    const bool hidden = frame_.initial_depth || std::isfinite(terms_.model.clear);
+    std::vector<std::uint32_t> seen;
+    for (std::uint32_t i = counts.last[s]; i != Counts::kNone; i = counts.links[i].before) {
+      const auto [d, t] = places_[counts.links[i].which];
+      if (image_.index.empty() || image_.index[s] == identifier_of(frame_.draws[d], t)) {
+        seen.push_back(counts.links[i].which);
+      }
+    }
+    if (!image_.index.empty()) {
+      if (image_.index[s] == kNoTriangle) {
+        if (counts.least[s] > 0 && !hidden) differs("index", s, "a triangle's", "none", known);
+        return;
+      }
+      if (seen.empty()) {
+        differs("index", s, "that of a triangle that may cover it", named(image_.index[s]), known);
+        return;
+      }
+    } else if (image_.count.empty() || image_.count[s] == 0 || hidden) {
+      return;
+    }
+    look_at_depth_range(s, seen, known);
+    // With several samples, where in the pixel a value is taken is for M1 to say and the standards to leave open.
+    if (frame_.samples > 1) return;
+    const auto look = [&](const std::string& name, float actual, const auto& corners) {
+      Range hull{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+      for (const std::uint32_t which : seen) {
+        const Range range = range_of(s, which, corners(which));
+        hull = {std::min(hull.low, range.low), std::max(hull.high, range.high)};
+      }
+      in_range(name, s, hull, actual, known);
+    };
+    for (std::size_t i = 0; i < 3 && !image_.barycentrics.empty(); ++i) {
+      look("barycentric b" + std::to_string(i), image_.barycentrics[3 * s + i], [&](std::uint32_t) {
+        Corners corners{{}, {1, 1, 1}, {0, 1}, 1};
+        corners.above[i] = 1;
+        return corners;
+      });
+    }
+    for (std::size_t k = 0; k < image_.attributes.size(); ++k) {
+      const std::size_t components = image_.attributes[k].size() / counts.least.size();
+      for (std::size_t c = 0; c < components; ++c) {
+        look(names_[k].name, image_.attributes[k][components * s + c],
+             [&](std::uint32_t which) { return attribute_of(which, k, c); });
+      }
+    }
+  }
+
+  // What is interpolated: (sum above_i E_i) / (sum below_i E_i), of values in `vertices`.
+  struct Corners {
+    std::array<double, 3> above, below;
+    Range vertices;
+    double largest;
+  };
+
+  Corners attribute_of(std::uint32_t which, std::size_t k, std::size_t c) const {
+    const auto [d, t] = places_[which];
+    const Draw& draw = frame_.draws[d];
+    const Triangle triangle = triangle_of(draw, t);
+    const AttributeArray& array = draw.attributes[k];
+    const std::size_t stride = array.stride == 0 ? array.components : array.stride;
+    Corners corners{{}, {1, 1, 1}, {}, 0};
+    std::array<double, 3>& u = corners.above;
+    for (std::size_t i = 0; i < 3; ++i) u[i] = array.values[triangle.indices[i] * stride + c];
+    if (array.interpolation == Interpolation::flat) u = {u[0], u[0], u[0]};
+    const auto [low, high] = std::minmax({u[0], u[1], u[2]});
+    corners.vertices = {low, high};
+    corners.largest = std::max(std::abs(low), std::abs(high));
+    for (std::size_t i = 0; i < 3 && array.interpolation == Interpolation::noperspective; ++i) {
+      corners.below[i] = triangle.vertices[i].w;
+      u[i] *= corners.below[i];
+    }
+    return corners;
+  }
+
+  // What is granted at a sample that the triangle may cover: what R11 grants, and what its vertices have. Beside a
+  // triangle its plane is a difference of large numbers, and rounded as such.
+  Range range_of(std::size_t s, std::uint32_t which, const Corners& corners) const {
+    const auto [d, t] = places_[which];
+    const Model& model = models_[d];
+    const Triangle triangle = triangle_of(frame_.draws[d], t);
+    const Edges edges(triangle.vertices);
+    const Place at = place_of(model, frame_, s);
+    const std::array<double, 2> distance = distance_of(model, frame_);
+    Range range = values_around(edges, corners.above, corners.below, at.x, at.y, distance).range;
+    double more = kGrantedRoundings * 0x1p-24 * terms_around(edges, corners, at, distance) + 0x1p-126;
+    const bool front =
+        std::all_of(triangle.vertices.begin(), triangle.vertices.end(), [](const Vertex& v) { return v.w > 0; });
+    if (front) {
+      range.low = std::min(range.low, corners.vertices.low);
+      range.high = std::max(range.high, corners.vertices.high);
+      more = std::max(more, kGrantedRoundings * 0x1p-24 * corners.largest);
+    }
+    return {range.low - more, range.high + more};
+  }
+
+  void look_at_depth_range(std::size_t s, const std::vector<std::uint32_t>& seen, bool known) {
+    if (image_.depth.empty()) return;
+    Range hull{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (const Draw& draw : frame_.draws) {
+      if (!draw.depth_write) return;  // then the depth is not the visible triangle's
+    }
+    for (const std::uint32_t which : seen) {
+      const auto [d, t] = places_[which];
+      const Draw& draw = frame_.draws[d];
+      const Triangle triangle = triangle_of(draw, t);
+      std::array<double, 3> z{};
+      Corners corners{{}, {}, {}, 0};
+      for (std::size_t i = 0; i < 3; ++i) {
+        corners.above[i] = triangle.vertices[i].z;
+        corners.below[i] = triangle.vertices[i].w;
+        z[i] = corners.above[i] / corners.below[i];
+      }
+      const auto [low, high] = std::minmax({z[0], z[1], z[2]});
+      corners.vertices = {low, high};
+      corners.largest = std::max(std::abs(low), std::abs(high));
+      const double step = format_step(models_[d]);
+      Range range = range_of(s, which, corners);
+      range = {range.low - step, range.high + step};
+      if (draw.depth_mode == DepthMode::clamp) {
+        const double beyond = step + 0x1p-23;
+        range = {std::clamp(range.low, -beyond, 1 + beyond), std::clamp(range.high, -beyond, 1 + beyond)};
+      }
+      hull = {std::min(hull.low, range.low), std::max(hull.high, range.high)};
+    }
+    in_range("depth", s, hull, image_.depth[s], known);
+  }
+
+  void in_range(const std::string& name, std::size_t s, const Range& granted, float actual, bool known) {
+    if (!std::isfinite(granted.low) || !std::isfinite(granted.high)) return;
+    if (actual >= granted.low && actual <= granted.high) return;
+    differs(name, s, number(static_cast<float>(granted.low)) + " to " + number(static_cast<float>(granted.high)),
+            number(actual), known);
+  }
+
+  // The largest sum of what is added up for a value, around the sample, signs aside.
+  static double terms_around(const Edges& edges, const Corners& corners, const Place& at,
+                             const std::array<double, 2>& distance) {
+    double largest = 0;
+    for (const double dx : {-distance[0], 0.0, distance[0]}) {
+      for (const double dy : {-distance[1], 0.0, distance[1]}) {
+        long double sum = 0, denominator = 0;
+        for (std::size_t i = 0; i < 3; ++i) {
+          const long double e = edges.at(i, at.x + dx, at.y + dy);
+          sum += std::abs(corners.above[i] * e);
+          denominator += corners.below[i] * e;
+        }
+        if (denominator != 0) largest = std::max(largest, static_cast<double>(sum / std::abs(denominator)));
+      }
+    }
+    return largest;
   }
 
   // Notes the error of one value, in ULP of the largest number that is granted (next to 0 its own ULP says nothing of
@@ -282,6 +435,7 @@ class Look {
   const corpus::Image& image_;
   std::span<const corpus::SceneAttribute> names_;
   std::vector<Of> places_;
+  std::vector<Model> models_;  // of each draw
   Judgement result_;
 };
 
@@ -350,6 +504,7 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
   counts.least.assign(total, 0);
   counts.most.assign(total, 0);
   counts.only.assign(total, kNoTriangle);
+  counts.last.assign(total, Counts::kNone);
   std::uint32_t which = 0;
   for (const Draw& draw : frame.draws) {
     Model model = model_of_draw(terms, frame, draw);
@@ -383,6 +538,8 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
         }
         if (cover == Cover::no) continue;
         ++counts.most[s];
+        counts.links.push_back({which, counts.last[s]});
+        counts.last[s] = static_cast<std::uint32_t>(counts.links.size() - 1);
         if (cover != Cover::yes) continue;
         counts.only[s] = ++counts.least[s] == 1 ? which : kNoTriangle;
       }

@@ -51,6 +51,13 @@ struct Frame {
 struct Counts {
   std::vector<std::uint32_t> least, most;
   std::vector<std::uint32_t> only;  // where both are 1: which triangle, over all draws; else kNoTriangle
+  // The triangles that may cover a sample: from last[sample] on, a list. kNone ends it.
+  static constexpr std::uint32_t kNone = 0xFFFFFFFF;
+  struct Link {
+    std::uint32_t which, before;
+  };
+  std::vector<Link> links;
+  std::vector<std::uint32_t> last;
 
   std::uint64_t judged() const;
 };
@@ -78,8 +85,8 @@ struct Looks {
   bool counts = true, values = true;
 };
 
-// Counts, and where one triangle is all that covers a sample, its index, depth, barycentrics and attributes. `names` are
-// the attributes'.
+// Counts; where one triangle is all that covers a sample, its index, depth, barycentrics and attributes; elsewhere, at open
+// samples too, R13's ranges of what is visible. `names` are the attributes'.
 Judgement judge_image(const Expected& expected, const Terms& terms, const Frame& frame, const corpus::Image& image,
                       const Looks& looks, std::span<const corpus::SceneAttribute> names);
 

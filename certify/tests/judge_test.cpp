@@ -203,6 +203,47 @@ TEST(Judge, WrongDepthsAreFoundWithoutAModel) {
   }
 }
 
+// R13: at samples whose cover is open, what is visible is still a triangle that may be there, in the range of its vertices.
+TEST(Judge, RangesHoldAtOpenSamples) {
+  Terms nothing;
+  nothing.model = least_known_model();
+  corpus::Scene scene = flat_scene(4, 4, {{{{1, 1}, {3, 1}, {1, 3}}}}, 0.5f);
+  scene.attributes = {{"a", 1, Interpolation::perspective}};
+  for (corpus::SceneVertex& v : scene.draws[0].vertices) v.attributes = {2};
+  corpus::Frame frame(scene, {true, true, true, false, true});
+  const std::span<const Draw> draws = frame.draws();
+  struct {
+    float depth, attribute;
+    std::uint32_t index, count;
+    const char* finding;
+  } const cases[] = {
+      {0.5f, 2, 0, 1, ""},
+      {0.75f, 2, 0, 1, "depth at pixel (1, 1)"},
+      {0.5f, 2.5f, 0, 1, "a at pixel (1, 1)"},
+      {0.5f, NAN, 0, 1, "a at pixel (1, 1)"},
+      {NAN, 2, 0, 1, "depth at pixel (1, 1)"},
+      {0.5f, 2, 7, 1, "index at pixel (1, 1)"},
+      {INFINITY, 0, kNoTriangle, 0, ""},
+  };
+  for (const auto& one : cases) {
+    corpus::Image image = frame.image();
+    image.index.assign(16, kNoTriangle);
+    image.depth.assign(16, INFINITY);
+    image.attributes[0].assign(16, 0);
+    image.count.assign(16, 0);
+    image.count[5] = one.count;
+    image.index[5] = one.index;
+    image.depth[5] = one.depth;
+    image.attributes[0][5] = one.attribute;
+    const Judgement judgement = judge_image(adapters::oracle_expected(), nothing,
+                                            {4, 4, 1, DepthTest::less, false, draws}, image, {}, scene.attributes);
+    EXPECT_EQ(judgement.finding.substr(0, std::string(one.finding).size()), one.finding) << judgement.finding;
+    EXPECT_EQ(judgement.differences, *one.finding ? 1u : 0u);
+    EXPECT_EQ(judgement.open, *one.finding ? 14u : 15u);  // one corner is out of reach
+    EXPECT_EQ(judgement.samples + judgement.open, 16u);
+  }
+}
+
 // What the judge says can be red: a picture that is right under one model is wrong under another.
 TEST(Judge, AnotherModelIsAccused) {
   Right rival(with({{zoo::kPlace, 1}}));

@@ -425,7 +425,7 @@ std::string schema_of(const File& file) {
     "bits": {"type": "array", "items": {"type": "array", "minItems": 4, "maxItems": 4, "items": {"$ref": "#/$defs/bits"}}},
     "decimal": {"type": "array", "items": {"type": "array", "minItems": 4, "maxItems": 4, "items": {"anyOf": [{"type": "number"}, {"enum": ["nan", "inf", "-inf"]}]}}}}},
    "triangles": {"type": "array", "items": {"type": "array", "minItems": 3, "maxItems": 3, "items": {"type": "integer", "minimum": 0}}},
-   "identifiers": {"$ref": "#/$defs/wholes"}, "first_index": {"type": "integer", "minimum": 0},
+   "identifiers": {"description": "one for each triangle", "type": "array", "items": {"type": "integer", "minimum": 0, "maximum": 4294967294}}, "first_index": {"type": "integer", "minimum": 0},
    "attributes": {"type": "array", "items": {"type": "object", "required": ["interpolation", "bits"], "additionalProperties": false, "properties": {
     "interpolation": {"enum": ["perspective", "noperspective", "flat"]},
     "bits": {"type": "array", "items": {"type": "array", "minItems": 1, "maxItems": 4, "items": {"$ref": "#/$defs/bits"}}}}}}}},
@@ -487,7 +487,8 @@ std::string text_of(const Test& test, bool with_expectations) {
     }
     text += fmt::format(" {}", frame.scene.draws.size());
     for (const corpus::SceneDraw& draw : frame.scene.draws) {
-      text += " " + state_text(draw) + fmt::format(" {} {}", draw.first_index.value_or(0), draw.vertices.size());
+      const std::uint32_t first = has_identifiers(draw) ? 0 : draw.first_index.value_or(0);
+      text += " " + state_text(draw) + fmt::format(" {} {}", first, draw.vertices.size());
       for (const corpus::SceneVertex& v : draw.vertices)
         text += " " + hex(v.x) + " " + hex(v.y) + " " + hex(v.z) + " " + hex(v.w);
       text += fmt::format(" {}", draw.triangles.size());

@@ -150,8 +150,9 @@ struct Verdict {
 // Holds lines of results against what is owed. Of each file of which a test is answered, all are to be; but of those in
 // the smoke set alone, if no others are answered.
 Verdict verify(std::span<const Owed> owed, std::string_view lines, const std::set<int>& smoke);
-// {"results": [{"id": 1001, "frames": [{"count": [...], ...}]}]}, frames as those that tests expect, as lines.
-std::string lines_of_json(const std::string& text, const std::string& path);
+// {"results": [{"id": 1001, "frames": [{"count": [...], ...}]}]}, frames as those that tests expect, as lines. Throws
+// std::runtime_error, with path and cause, where it is not that; a plane that is left out has no values.
+std::string lines_of_json(const std::string& text, const std::string& path, std::span<const Owed> owed);
 
 }  // namespace surefill::vectors
 

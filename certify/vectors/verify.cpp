@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 #include "certify/vectors/vectors.hpp"
 
@@ -78,6 +79,41 @@ bool right(const std::string& plane, std::uint32_t value, std::uint32_t low, std
 std::string said(const std::string& plane, std::uint32_t value) {
   if (plane == "winding") return std::to_string(static_cast<std::int32_t>(value));
   return is_whole(plane) ? std::to_string(value) : fmt::format("{:08x} ({:.9g})", value, std::bit_cast<float>(value));
+}
+
+// Where the results of a frame have a plane.
+Json::json_pointer pointer_to(const std::string& plane) {
+  if (plane[0] == 'b') return Json::json_pointer("/barycentrics/" + plane.substr(1));
+  const std::size_t point = plane.find('.');
+  if (point == std::string::npos) return Json::json_pointer("/" + plane);
+  return Json::json_pointer("/attributes/" + plane.substr(1, point - 1) + "/" + plane.substr(point + 1));
+}
+
+// The plane's runs as text; none where the frame has no such plane. Throws std::invalid_argument, which says what is
+// wrong with them.
+std::string runs_of(const Json& frame, const std::string& plane) {
+  const Json::json_pointer pointer = pointer_to(plane);
+  if (!frame.is_object()) throw std::invalid_argument("the frame is no object");
+  if (!frame.contains(pointer)) return " 0";
+  const Json& runs = frame[pointer];
+  if (!runs.is_array() || runs.size() % 2 != 0)
+    throw std::invalid_argument("no array of lengths and values, alternately");
+  std::string words = fmt::format(" {}", runs.size() / 2);
+  for (std::size_t i = 0; i < runs.size(); i += 2) {
+    const Json& value = runs[i + 1];
+    if (!runs[i].is_number_unsigned())
+      throw std::invalid_argument(runs[i].dump().substr(0, 40) + " is no length of a run");
+    if (is_whole(plane)) {
+      if (!value.is_number_integer()) throw std::invalid_argument(value.dump().substr(0, 40) + " is no whole number");
+      words += fmt::format(" {} {}", runs[i].dump(), value.dump());
+    } else {
+      const std::string bits = value.is_string() ? value.get<std::string>() : "";
+      if (bits.size() != 8 || bits.find_first_not_of("0123456789abcdefABCDEF") != std::string::npos)
+        throw std::invalid_argument(value.dump().substr(0, 40) + " is not the bits of a float32, eight digits");
+      words += fmt::format(" {} {}", runs[i].dump(), bits);
+    }
+  }
+  return words;
 }
 
 // What is wrong with a line, or nothing. `words` are those after the id.
@@ -185,27 +221,43 @@ std::vector<Owed> read_owed(const std::string& folder, const std::string& subjec
   }
 }
 
-std::string lines_of_json(const std::string& text, const std::string& path) {
+std::string lines_of_json(const std::string& text, const std::string& path, std::span<const Owed> owed) {
+  std::map<std::int64_t, const Owed*> by_id;
+  for (const Owed& test : owed) by_id[test.id] = &test;
+  const auto refuse = [&path](const std::string& cause) { throw std::runtime_error(path + ": " + cause); };
+  Json document;
   try {
-    std::string lines;
-    for (const Json& result : Json::parse(text).at("results")) {
-      lines += std::to_string(result.at("id").get<int>());
-      for (const Json& frame : result.at("frames")) {
-        std::vector<std::string> names;
-        std::vector<Values> planes, ends;
-        planes_of(frame, names, planes, ends);
-        for (std::size_t p = 0; p < planes.size(); ++p) {
-          lines += fmt::format(" {}", planes[p].size());
-          for (const std::uint32_t value : planes[p])
-            lines += is_whole(names[p]) ? " 1 " + said(names[p], value) : fmt::format(" 1 {:08x}", value);
+    document = Json::parse(text);
+  } catch (const Json::exception& error) {
+    refuse(std::string("no JSON: ") + error.what());
+  }
+  if (!document.is_object() || !document.contains("results") || !document["results"].is_array())
+    refuse("no results: {\"results\": [{\"id\": ..., \"frames\": [...]}]} is expected");
+  std::string lines;
+  std::size_t number = 0;
+  for (const Json& result : document["results"]) {
+    const std::string where = fmt::format("result {}", ++number);
+    if (!result.is_object() || !result.contains("id") || !result["id"].is_number_integer())
+      refuse(where + ": no id, which is a whole number");
+    const auto found = by_id.find(result["id"].get<std::int64_t>());
+    if (found == by_id.end()) refuse(fmt::format("{}: {} is the number of no test", where, result["id"].dump()));
+    const Owed* test = std::exchange(found->second, nullptr);
+    if (test == nullptr) refuse(fmt::format("{}: test {} a second time", where, found->first));
+    if (!result.contains("frames") || !result["frames"].is_array() || result["frames"].size() != test->low.size())
+      refuse(fmt::format("{}, test {}: no array of frames, {} of them", where, test->id, test->low.size()));
+    lines += std::to_string(test->id);
+    for (std::size_t f = 0; f < test->low.size(); ++f) {
+      for (const std::string& name : test->names) {
+        try {
+          lines += runs_of(result["frames"][f], name);
+        } catch (const std::invalid_argument& error) {
+          refuse(fmt::format("{}, test {}, frame {}, {}: {}", where, test->id, f, name, error.what()));
         }
       }
-      lines += '\n';
     }
-    return lines;
-  } catch (const std::exception& error) {
-    throw std::runtime_error(path + ": no results: " + error.what());
+    lines += '\n';
   }
+  return lines;
 }
 
 Tables tables_of(const std::string& folder) {

@@ -63,6 +63,15 @@ bool locations_ok(const Target& target) {
   return true;
 }
 
+// Of a good number of components.
+bool fits(const AttributeTarget& image, std::uint64_t samples) {
+  const std::uint64_t stride = stride_of(image), components = image.components, size = image.values.size();
+  if (stride <= components) return stride == components && fits(image.values, components * samples);
+  if (null_but_not_empty(image.values)) return false;
+  // Of up to 2^36 samples and 2^32 - 1 floats each, the product is compared as a quotient.
+  return size == 0 || (size >= components && (size - components) / stride >= samples - 1);
+}
+
 Status validate_target(const Target& target, Outputs& outputs) {
   if (!size_ok(target)) return Status::target_size;
   if (!samples_ok(target)) return Status::target_samples;
@@ -78,10 +87,8 @@ Status validate_target(const Target& target, Outputs& outputs) {
   if (null_but_not_empty(target.attributes) || target.attributes.size() > kMaxAttributes)
     return Status::target_attributes;
   for (const AttributeTarget& attribute : target.attributes) {
-    if (attribute.components < 1 || attribute.components > kMaxComponents ||
-        !fits(attribute.values, attribute.components * in_layers)) {
-      return Status::target_attributes;
-    }
+    if (attribute.components < 1 || attribute.components > kMaxComponents) return Status::target_attributes;
+    if (!fits(attribute, in_layers)) return Status::target_attributes;
   }
   if (!fits(target.initial_depth, total)) return Status::target_initial_depth;
   if (target.depth_test > DepthTest::greater_equal) return Status::target_depth_test;
@@ -261,7 +268,7 @@ const char* status_text(Status status) noexcept {
     case Status::target_barycentrics:
       return "the barycentrics buffer's size is not 3 floats for each sample of the target's layers";
     case Status::target_attributes:
-      return "an attribute target has components outside 1..4 or a wrong size, or there are over 16";
+      return "an attribute target has components outside 1..4, a wrong size or stride, or there are over 16";
     case Status::target_initial_depth:
       return "the initial depth's size is not that of the target";
     case Status::target_overlap:

@@ -108,7 +108,7 @@ class Arguments {
     } else {
       for (std::size_t k = 0; k < c.attribute_count; ++k) {
         const surefill_attribute_target& attribute = c.attributes[k];
-        attribute_targets_[k] = {{attribute.values, attribute.value_count}, attribute.components};
+        attribute_targets_[k] = {{attribute.values, attribute.value_count}, attribute.components, attribute.stride};
       }
       target.attributes = {attribute_targets_, c.attribute_count};
     }

@@ -78,6 +78,11 @@ inline float empty_depth(DepthTest test) {
   return is_reversed(test) ? -kInfinity : kInfinity;
 }
 
+// Floats from one sample to the next.
+inline std::size_t stride_of(const AttributeTarget& image) {
+  return image.stride != 0 ? image.stride : image.components;
+}
+
 // ---- of a draw
 // The vertices of each of its primitives; of what is no enumerator, 1.
 inline std::size_t corners_of(const DrawState& draw) {

@@ -117,7 +117,7 @@ void DrawFragments::shade(std::uint32_t position, int x, int y, std::size_t plac
       float u[3] = {};
       for (std::size_t i = 0; i < corners_of(draw_); ++i)
         u[i] = in.values[vertex_index(draw_, position, i) * stride_of(in) + c];
-      out.values[place * out.components + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
+      out.values[place * stride_of(out) + c] = triangle_.attribute(p, u, in.interpolation, &rungs_);
     }
   }
 }
@@ -131,7 +131,9 @@ void clear(const Target& target) {
   std::fill(target.index.begin(), target.index.end(), kNoTriangle);
   std::fill(target.barycentrics.begin(), target.barycentrics.end(), 0.0f);
   for (const AttributeTarget& attribute : target.attributes) {
-    std::fill(attribute.values.begin(), attribute.values.end(), 0.0f);
+    const std::size_t samples = static_cast<std::size_t>(target.layers) * sample_total(target);
+    for (std::size_t s = 0; s < samples && !attribute.values.empty(); ++s)
+      std::fill_n(&attribute.values[s * stride_of(attribute)], attribute.components, 0.0f);
   }
 }
 
@@ -143,7 +145,7 @@ void copy_shading(const Target& target, std::size_t from, std::size_t to) {
   for (const AttributeTarget& out : target.attributes) {
     if (out.values.empty()) continue;
     for (std::size_t c = 0; c < out.components; ++c) {
-      out.values[to * out.components + c] = out.values[from * out.components + c];
+      out.values[to * stride_of(out) + c] = out.values[from * stride_of(out) + c];
     }
   }
 }

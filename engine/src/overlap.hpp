@@ -4,10 +4,12 @@
 #ifndef SUREFILL_SRC_OVERLAP_HPP
 #define SUREFILL_SRC_OVERLAP_HPP
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
+#include "facts.hpp"
 #include "surefill/diagnostics.hpp"
 #include "surefill/surefill.hpp"
 
@@ -48,7 +50,15 @@ class Outputs {
     bool apart = add(Bytes(target.count)) && add(Bytes(target.index)) && add(Bytes(target.depth)) &&
                  add(Bytes(target.barycentrics)) && add(Bytes(target.winding));
     if (target.attributes.data() == nullptr || target.attributes.size() > kMaxAttributes) return apart;
-    for (const AttributeTarget& attribute : target.attributes) apart = apart && add(Bytes(attribute.values));
+    const std::size_t buffers = count_;
+    for (const AttributeTarget& image : target.attributes) {
+      const Bytes bytes(image.values);
+      apart = apart && !touches(bytes, 0, buffers) && !numbers_touch(bytes);
+      for (std::size_t k = 0; apart && k < count_ - buffers; ++k)
+        apart = !bytes_[buffers + k].overlaps(bytes) || lie_side_by_side(target.attributes[k], image);
+      if (!apart) return false;
+      bytes_[count_++] = bytes;
+    }
     return apart;
   }
 
@@ -60,17 +70,28 @@ class Outputs {
   }
   bool has_numbers() const { return !draws_.empty(); }
 
-  bool touched_by(const Bytes& bytes) const {
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (bytes_[i].overlaps(bytes)) return true;
-    }
-    for (const Draw& draw : draws_) {
-      if (Bytes(draw.covered).overlaps(bytes) || Bytes(draw.visible).overlaps(bytes)) return true;
-    }
-    return false;
-  }
+  bool touched_by(const Bytes& bytes) const { return touches(bytes, 0, count_) || numbers_touch(bytes); }
 
  private:
+  bool touches(const Bytes& bytes, std::size_t begin, std::size_t end) const {
+    return std::any_of(bytes_ + begin, bytes_ + end, [&](const Bytes& output) { return output.overlaps(bytes); });
+  }
+  bool numbers_touch(const Bytes& bytes) const {
+    return std::any_of(draws_.begin(), draws_.end(), [&](const Draw& draw) {
+      return Bytes(draw.covered).overlaps(bytes) || Bytes(draw.visible).overlaps(bytes);
+    });
+  }
+
+  // Two images whose memory overlaps: does each keep to its own components of every sample? By the distance of their
+  // first ones, modulo the stride that both have.
+  static bool lie_side_by_side(const AttributeTarget& a, const AttributeTarget& b) {
+    const std::uint64_t stride = stride_of(a) * std::uint64_t{sizeof(float)};
+    if (stride_of(a) != stride_of(b) || stride == 0) return false;
+    const std::uint64_t from = Bytes(a.values).begin % stride, to = Bytes(b.values).begin % stride;
+    const std::uint64_t distance = (to + stride - from) % stride;
+    return a.components * sizeof(float) <= distance && distance + b.components * sizeof(float) <= stride;
+  }
+
   static constexpr std::size_t kMost = 7 + kMaxAttributes;  // five buffers, the attributes, statistics, diagnostics
   Bytes bytes_[kMost];
   std::size_t count_ = 0;

@@ -71,7 +71,7 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
   for (std::size_t n = 0; n < zoo::right_rasterizers().size(); ++n) {
     if (name != zoo::right_name(n)) continue;
     instance.right = &zoo::right_rasterizers()[n];
-    info->features = 0;
+    info->features = SUREFILL_ADAPTER_NOPERSPECTIVE | SUREFILL_ADAPTER_FLAT;
     info->model = {};
     info->model.profile = SUREFILL_ADAPTER_PROFILE_OPENGL;
   }
@@ -87,7 +87,6 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
   std::snprintf(info->version, sizeof info->version, "%s", SUREFILL_VERSION);
   info->outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH |
                   SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;
-  if (instance.right) info->outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH;
   *handle = new Instance(instance);
   return SUREFILL_ADAPTER_OK;
 }

@@ -186,6 +186,42 @@ Plane plane_of(const std::array<std::array<double, 3>, 3>& v) {
   return {plane.x, plane.y, v[0][2] - plane.x * v[0][0] - plane.y * v[0][1]};
 }
 
+// Barycentrics and attributes at the sample: weights in the numbers of the code base, each rounded as it comes.
+template <typename Number>
+void interpolate(const surefill_adapter_draw& draw, std::uint32_t t, std::uint32_t attributes,
+                 const std::array<std::array<double, 3>, 3>& seen, const Corner& s, const surefill_adapter_image& image,
+                 std::size_t at) {
+  std::array<Number, 3> affine{}, perspective{};
+  const std::uint32_t* indices = draw.indices + 3 * std::size_t{t};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto &p = seen[(i + 1) % 3], &q = seen[(i + 2) % 3];
+    affine[i] = static_cast<Number>((q[0] - p[0]) * (s.y - p[1]) - (q[1] - p[1]) * (s.x - p[0]));
+    perspective[i] = affine[i] / static_cast<Number>(draw.pixel[4 * std::size_t{indices[i]} + 3]);
+  }
+  const auto mean = [](const std::array<Number, 3>& weights, const std::array<Number, 3>& u) {
+    const Number sum = weights[0] + weights[1] + weights[2];
+    if (sum == 0) return static_cast<float>(u[0]);
+    return static_cast<float>((weights[0] * u[0] + weights[1] * u[1] + weights[2] * u[2]) / sum);
+  };
+  for (std::size_t i = 0; i < 3 && image.barycentrics; ++i) {
+    std::array<Number, 3> unit{};
+    unit[i] = 1;
+    image.barycentrics[3 * at + i] = mean(perspective, unit);
+  }
+  for (std::uint32_t k = 0; k < attributes && image.attributes; ++k) {
+    const surefill_adapter_attribute& attribute = draw.attributes[k];
+    if (!image.attributes[k]) continue;
+    for (std::uint32_t c = 0; c < attribute.components; ++c) {
+      std::array<Number, 3> u{};
+      for (std::size_t i = 0; i < 3; ++i) u[i] = attribute.values[attribute.components * std::size_t{indices[i]} + c];
+      image.attributes[k][attribute.components * at + c] =
+          attribute.interpolation == SUREFILL_ADAPTER_CONSTANT ? static_cast<float>(u[0])
+          : attribute.interpolation == SUREFILL_ADAPTER_AFFINE ? mean(affine, u)
+                                                               : mean(perspective, u);
+    }
+  }
+}
+
 constexpr std::array<std::array<double, 2>, 4> kPlaces{{{0.5, 0.5}, {0, 0}, {0.25, 0.75}, {7.0 / 12, 7.0 / 12}}};
 
 }  // namespace
@@ -225,6 +261,10 @@ bool draw_right(const Choices& choices, const surefill_adapter_scene& scene, con
   if (image.count) std::fill_n(image.count, total, 0u);
   if (image.index) std::fill_n(image.index, total, SUREFILL_ADAPTER_EMPTY);
   if (image.depth) std::fill_n(image.depth, total, std::numeric_limits<float>::infinity());
+  if (image.barycentrics) std::fill_n(image.barycentrics, 3 * total, 0.0f);
+  for (std::uint32_t k = 0; k < scene.attribute_count && image.attributes; ++k) {
+    if (image.attributes[k]) std::fill_n(image.attributes[k], scene.draws[0].attributes[k].components * total, 0.0f);
+  }
   const auto& place = kPlaces[static_cast<std::size_t>(choices[kPlace])];
   for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
     const surefill_adapter_draw& draw = scene.draws[d];
@@ -278,6 +318,11 @@ bool draw_right(const Choices& choices, const surefill_adapter_scene& scene, con
           buffer[at] = depth;
           if (image.index) image.index[at] = draw.identifiers[t];
           if (image.depth) image.depth[at] = static_cast<float>(depth);
+          if (choices[kCode] == 1) {
+            interpolate<float>(draw, t, scene.attribute_count, seen, s, image, at);
+          } else {
+            interpolate<double>(draw, t, scene.attribute_count, seen, s, image, at);
+          }
         }
       }
     }

@@ -203,6 +203,21 @@ TEST(Model, TrianglesInALineAreOpenWhereTheyAreDrawn) {
     EXPECT_EQ(line[static_cast<std::size_t>(s)], s == 0 || s == 5 || s == 10 ? Cover::open : Cover::no);
 }
 
+// R8: on a grid, who compares what came with an area that is next to nothing has that rounded; in double this one is
+// positive, and negative as a real number.
+TEST(Model, ThinTrianglesAreOpenOnAGrid) {
+  const std::array<Vertex, 3> thin{{{-0x1.0f899p+8f, 0x1.32b9p+4f, 0, 0x1.32914p+8f},
+                                    {0x1.1ffbfp+7f, -0x1.74a44p+7f, 0, 0x1.4421p+6f},
+                                    {-0x1.2b472cp+9f, 0x1.fd3dap+6f, 0, 0x1.1713fcp+9f}}};
+  Model model;
+  model.x.bits = model.y.bits = 2;
+  model.x.rounding = model.y.rounding = Rounding::floor;
+  model.x.place = model.y.place = -0.5;
+  EXPECT_EQ(cover(model, 1, 1, 1, thin)[0], Cover::open);
+  model.turned = Turned::as_grid;  // D decides nothing
+  EXPECT_EQ(cover(model, 1, 1, 1, thin)[0], Cover::yes);
+}
+
 TEST(Model, RoundingsDifferAtTiesOnly) {
   // An edge at 0.5 of a grid of whole pixels, and at -0.5 off the screen: seen through a slanted edge's other end.
   const auto covers = [](Rounding rounding, float edge) {

@@ -5,7 +5,6 @@ from __future__ import annotations
 
 import concurrent.futures
 import ctypes
-import threading
 from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
@@ -221,7 +220,6 @@ def draw_frames(draws: Sequence[Draw], settings: Settings, outputs: Sequence[str
         result = old if old is not None and old.shape == shape else np.empty(shape, np.float32)
     statistics = []
     passes = [groups[i:i + c.MAX_ATTRIBUTES] for i in range(0, len(groups), c.MAX_ATTRIBUTES)] or [[]]
-    buffers: Dict[int, NDArray[np.float32]] = {}
     for image in range(images):
         for number, some in enumerate(passes):
             target = settings.target(image)
@@ -230,8 +228,9 @@ def draw_frames(draws: Sequence[Draw], settings: Settings, outputs: Sequence[str
                     of_image = array if settings.batch is None else array[image]
                     setattr(target, name, of_image.ctypes.data)
                     setattr(target, name + "_count", of_image.size)
-            targets = _attribute_targets(settings, some, image, result, buffers)
-            target.attributes, target.attribute_count = c.array_of(c.AttributeTarget, [t for t, _ in targets]), len(some)
+            if result is not None:
+                targets = _attribute_targets(some, result if settings.batch is None else result[image])
+                target.attributes, target.attribute_count = c.array_of(c.AttributeTarget, targets), len(targets)
             numbers = [tuple(per_triangle[name][d][image] if number == 0 and name in per_triangle else None
                              for name in _PER_TRIANGLE) for d in range(len(draws))]
             structs, alive = draw_structs(draws, image, some, numbers)  # type: ignore[arg-type]
@@ -239,64 +238,16 @@ def draw_frames(draws: Sequence[Draw], settings: Settings, outputs: Sequence[str
             options = _Options(settings)
             options.check(c.render(target, structs, len(draws), options.struct, told))
             del alive
-            for group, (_, buffer) in zip(some, targets):
-                if buffer is not None and result is not None:
-                    _put_columns(result if settings.batch is None else result[image], group, buffer)
             if told is not None:
                 statistics.append(_statistics(told))
     return Frame(arrays, result, per_triangle, statistics)
 
 
-class _Scratch(threading.local):
-    """Images whose columns go into others, of this thread: up to 16 MB stay for the next call, as fresh memory is slow."""
-
-    MOST = 16 << 20
-
-    def __init__(self) -> None:
-        self.arrays: Dict[int, NDArray[np.float32]] = {}
-
-
-_SCRATCH = _Scratch()
-
-
-def _scratch(number: int, shape: Tuple[int, ...]) -> NDArray[np.float32]:
-    kept, size = _SCRATCH.arrays, int(np.prod(shape))
-    if number not in kept or kept[number].size < size:
-        kept.pop(number, None)
-        array = np.empty(size, np.float32)
-        if array.nbytes + sum(other.nbytes for other in kept.values()) > _Scratch.MOST:
-            return array.reshape(shape)
-        kept[number] = array
-    return kept[number][:size].reshape(shape)
-
-
-def _put_columns(result: NDArray[np.float32], group: Groups, buffer: NDArray[np.float32]) -> None:
-    """result[..., group.first:group.last] = buffer, by units of as many floats as divide all, each in one run over the image."""
-    columns = group.last - group.first
-    unit, dtype = next((n, d) for n, d in ((4, np.complex128), (2, np.float64), (1, np.float32))
-                       if group.first % n == 0 and columns % n == 0 and result.shape[-1] % n == 0)
-    to: NDArray[Any] = result.reshape(-1, result.shape[-1]).view(dtype)
-    pieces: NDArray[Any] = buffer.reshape(-1, columns).view(dtype)
-    for k in range(columns // unit):
-        to[:, group.first // unit + k] = pieces[:, k]
-
-
-def _attribute_targets(settings: Settings, groups: Sequence[Groups], image: int, result: Optional[NDArray[np.float32]],
-                       buffers: Dict[int, NDArray[np.float32]]) -> List[Tuple[c.AttributeTarget, Optional[NDArray[np.float32]]]]:
-    """For each group its C struct and the buffer whose columns go into the result: none where it is the result itself."""
-    targets: List[Tuple[c.AttributeTarget, Optional[NDArray[np.float32]]]] = []
-    for number, group in enumerate(groups):
-        components = group.last - group.first
-        assert result is not None
-        of_image = result if settings.batch is None else result[image]
-        if components == result.shape[-1]:
-            targets.append((c.AttributeTarget(of_image.ctypes.data, of_image.size, components), None))
-            continue
-        buffer = buffers.get(number)
-        if buffer is None or buffer.shape[-1] != components:
-            buffer = buffers[number] = _scratch(number, (*of_image.shape[:-1], components))
-        targets.append((c.AttributeTarget(buffer.ctypes.data, buffer.size, components), buffer))
-    return targets
+def _attribute_targets(groups: Sequence[Groups], result: NDArray[np.float32]) -> List[c.AttributeTarget]:
+    """For each group its columns of the result, whose rows are samples."""
+    columns = result.shape[-1]
+    return [c.AttributeTarget(result.ctypes.data + 4 * group.first, result.size - group.first, group.last - group.first, columns)
+            for group in groups]
 
 
 def visit_coverage(draws: Union[Draw, Sequence[Draw]], size: Sequence[int], visitor: Callable[[NDArray[Any]], object], *,

@@ -78,7 +78,7 @@ class Draw(ctypes.Structure):
 
 
 class AttributeTarget(ctypes.Structure):
-    _fields_ = [("values", c_void_p), ("value_count", c_size_t), ("components", c_uint32)]
+    _fields_ = [("values", c_void_p), ("value_count", c_size_t), ("components", c_uint32), ("stride", c_uint32)]
 
 
 class Target(ctypes.Structure):

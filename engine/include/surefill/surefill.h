@@ -51,10 +51,11 @@ typedef enum surefill_status {
   SUREFILL_TARGET_INDEX,         /* index: the same */
   SUREFILL_TARGET_DEPTH,         /* depth: the same */
   SUREFILL_TARGET_BARYCENTRICS,  /* barycentrics: neither 0 elements nor 3 * surefill_sample_total */
-  SUREFILL_TARGET_ATTRIBUTES,    /* components outside 1..4, more than 16, null, or the wrong size */
+  SUREFILL_TARGET_ATTRIBUTES,    /* components outside 1..4, more than 16, null, or the wrong size or stride */
   SUREFILL_TARGET_INITIAL_DEPTH, /* initial_depth: neither 0 elements nor surefill_sample_total */
   SUREFILL_TARGET_OVERLAP,       /* an output, statistics and answers too, overlaps another or what the call reads; only
-                                    initial_depth and depth may be the same */
+                                    initial_depth and depth may be the same, and attribute images of one stride may lie
+                                    in one another, component beside component */
   SUREFILL_TARGET_DEPTH_TEST,    /* not a surefill_depth_test */
   SUREFILL_TARGET_ATTRIBUTE_LOCATION,    /* not a surefill_attribute_location */
   SUREFILL_DRAWS,                        /* draws is null, and draw_count is not 0 */
@@ -243,11 +244,13 @@ typedef struct surefill_draw {
   float width;        /* pixels: of lines, or the side of a point's square; 0: points of 1 pixel, and thin lines [M7] */
 } surefill_draw;
 
-/* An attribute image. Component c of sample s is values[s * components + c]. */
+/* An attribute image. Component c of sample s is values[s * stride + c]; what lies between is left as it is. */
 typedef struct surefill_attribute_target {
   float* values;
-  size_t value_count;  /* floats: components * layers * surefill_sample_total, or 0: not asked for */
+  size_t value_count;  /* floats, of layers * surefill_sample_total samples: components * that, with a stride at least
+                          (that - 1) * stride + components; or 0: not asked for */
   uint32_t components; /* 1..SUREFILL_MAX_COMPONENTS; must be set */
+  uint32_t stride;     /* floats from one sample to the next; 0 means `components` */
 } surefill_attribute_target;
 
 /* Where the image goes. Sample n of pixel (x, y) is element (y * width + x) * samples + n of every buffer; in layer l of

@@ -31,10 +31,10 @@ class Shader {
  public:
   Shader(const FrameJob& frame, const TileRow& tiles, Rungs& rungs)
       : frame_(frame), target_(*frame.target), tiles_(tiles), rungs_(rungs) {
-    if (!target_.barycentrics.empty()) outputs_[count_++] = {target_.barycentrics.data(), 3, kBarycentrics};
+    if (!target_.barycentrics.empty()) outputs_[count_++] = {target_.barycentrics.data(), 3, 3, kBarycentrics};
     for (std::size_t k = 0; k < target_.attributes.size(); ++k) {
       const AttributeTarget& out = target_.attributes[k];
-      if (!out.values.empty()) outputs_[count_++] = {out.values.data(), out.components, k};
+      if (!out.values.empty()) outputs_[count_++] = {out.values.data(), out.components, stride_of(out), k};
     }
     if (target_.samples == 1) place_ = sample_offset(target_, 0);
     place_ = {place_.x + target_.origin.x, place_.y + target_.origin.y};
@@ -63,6 +63,7 @@ class Shader {
   struct Output {
     float* values;
     std::uint32_t components;
+    std::size_t step;       // floats from one sample to the next
     std::size_t attribute;  // or kBarycentrics
     // In the draw at hand: the values at vertex v of corner k of a triangle begin at corner[k] + v * stride.
     const float* corner[3] = {};
@@ -185,9 +186,9 @@ class Shader {
     for (int y = tile_y_; y < tile_y_ + rows_; ++y) {
       for (std::size_t n = 0; n < count_; ++n) {
         const std::size_t components = outputs_[n].components,
-                          step = components * static_cast<std::size_t>(target_.samples);
-        float* const row = outputs_[n].values + frame_.sample_index(tile_x_, y) * components;
-        if (target_.samples == 1) {
+                          step = outputs_[n].step * static_cast<std::size_t>(target_.samples);
+        float* const row = outputs_[n].values + frame_.sample_index(tile_x_, y) * outputs_[n].step;
+        if (step == components) {
           std::fill_n(row, static_cast<std::size_t>(columns_) * components, 0.0f);
         } else {
           for (int x = 0; x < columns_; ++x) std::fill_n(row + static_cast<std::size_t>(x) * step, components, 0.0f);
@@ -196,7 +197,7 @@ class Shader {
     }
   }
   float* ValueAt(const Output& out, std::size_t lane) const {
-    return out.values + (first_sample_ + sample_[lane]) * out.components;
+    return out.values + (first_sample_ + sample_[lane]) * out.step;
   }
 
   // ---- draws
@@ -430,9 +431,9 @@ class Shader {
     const FourFloats df;
     // What is written to memory may be none of these.
     const float* const corner[3] = {out.corner[0], out.corner[1], out.corner[2]};
-    const std::size_t stride = out.stride, components = kFour ? 4 : out.components;
+    const std::size_t stride = out.stride, step = out.step, components = kFour ? 4 : out.components;
     const std::uint32_t* const indices = indices_;
-    float* const first_value = out.values + first_sample_ * components;
+    float* const first_value = out.values + first_sample_ * step;
     const auto load = [&](std::size_t l) HWY_ATTR {
       const std::uint32_t* const triangle = indices + std::size_t{3} * pixels.position[l];
       const float* corners[3] = {corner[0] + triangle[0] * stride, corner[1] + triangle[1] * stride,
@@ -449,7 +450,7 @@ class Shader {
     }
     for (std::uint32_t rest = lanes; rest != 0; rest &= rest - 1) {
       const auto l = static_cast<std::size_t>(std::countr_zero(rest));
-      float* const to = first_value + sample_[l] * components;
+      float* const to = first_value + sample_[l] * step;
       alignas(16) float four[4];
       float* const nearest = kFour ? to : four;
       if (!kOne) values = load(l);

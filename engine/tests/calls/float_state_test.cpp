@@ -548,7 +548,7 @@ TEST(FloatState, TheC) {
   draws[1].grid = &grid;
   draws[2].depth_mode = SUREFILL_DEPTH_CLIP;
   Image image(1);
-  surefill_attribute_target attribute{image.values.data(), image.values.size(), 2};
+  surefill_attribute_target attribute{image.values.data(), image.values.size(), 2, 0};
   surefill_target target{};
   target.struct_size = sizeof target;
   target.width = kWidth, target.height = kHeight, target.samples = 1;

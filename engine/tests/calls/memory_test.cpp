@@ -435,7 +435,7 @@ struct CDraws {
 TEST(Memory, CRender) {
   const CDraws draws;
   Image image;
-  surefill_attribute_target attribute{image.values.data(), image.values.size(), 2};
+  surefill_attribute_target attribute{image.values.data(), image.values.size(), 2, 0};
   surefill_target target{};
   target.struct_size = sizeof target, target.width = kWidth, target.height = kHeight, target.samples = 1;
   target.count = image.count.data(), target.count_count = kPixels;

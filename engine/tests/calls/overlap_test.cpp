@@ -336,7 +336,8 @@ struct CCall {
   std::vector<float> barycentrics = std::vector<float>(3 * kSamples), first = std::vector<float>(kSamples),
                      second = std::vector<float>(2 * kSamples);
   std::array<float, 5 * 4> strided{};  // four vertices, 20 bytes apart
-  surefill_attribute_target attribute_targets[2] = {{first.data(), kSamples, 1}, {second.data(), 2 * kSamples, 2}};
+  surefill_attribute_target attribute_targets[2] = {{first.data(), kSamples, 1, 0},
+                                                    {second.data(), 2 * kSamples, 2, 0}};
   surefill_attribute_array arrays[2] = {{kValues, 4, 1, 0, SUREFILL_PERSPECTIVE}, {kValues, 8, 2, 0, SUREFILL_FLAT}};
   surefill_scissor scissor{0, 0, kSide, kSide};
   surefill_grid grid{8, 0, 0, SUREFILL_NEAREST_EVEN};

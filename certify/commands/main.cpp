@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -35,6 +34,7 @@
 #include "certify/run/files.hpp"
 #include "certify/run/judge.hpp"
 #include "certify/run/progress.hpp"
+#include "corpus/folder.hpp"
 #include "corpus/mesh.hpp"
 #include "corpus/scene.hpp"
 #include "oracle/oracle.hpp"
@@ -179,17 +179,9 @@ int run_render(const RenderOptions& options) {
 
 // The corpus that was compiled in, or one that lies beside the program or where an installation puts it.
 std::string find_corpus() {
-  std::vector<std::filesystem::path> places{SUREFILL_CORPUS};
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    places.push_back(program.parent_path() / "corpus");
-    places.push_back(program.parent_path().parent_path() / "share" / "surefill" / "corpus");
-  }
-  for (const std::filesystem::path& place : places) {
-    if (std::filesystem::is_directory(place, error)) return place.string();
-  }
-  throw UsageError("no corpus found; name its folder with --corpus");
+  const std::string folder = corpus::corpus_folder(SUREFILL_CORPUS);
+  if (folder.empty()) throw UsageError("no corpus found; name its folder with --corpus");
+  return folder;
 }
 
 // --- replay and reduce

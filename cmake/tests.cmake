@@ -9,7 +9,7 @@ file(GLOB test_sources CONFIGURE_DEPENDS
   ${tests}/oracle/tests/*.cpp ${tests}/properties/tests/*.cpp ${tests}/textbook/tests/*.cpp)
 add_executable(surefill_tests ${test_sources})
 target_link_libraries(surefill_tests PRIVATE
-  surefill_report surefill_adapters surefill_zoo_specimens surefill_properties surefill_flags surefill_quick_build GTest::gtest_main rapidcheck rapidcheck_gtest gmpxx gmp)
+  surefill_report surefill_mesh surefill_adapters surefill_zoo_specimens surefill_properties surefill_flags surefill_quick_build GTest::gtest_main rapidcheck rapidcheck_gtest gmpxx gmp)
 
 # define_for(FILE ... DEFINE DEFINITION ...): for these files alone, so that a compiler cache serves all others wherever the tree lies.
 function(define_for)
@@ -50,7 +50,7 @@ foreach(plugin surefill_opengl surefill_vulkan)
   endif()
 endforeach()
 define_for(${tests}/certify/tests/adapter_test.cpp ${tests}/certify/tests/command_test.cpp
-  ${tests}/certify/tests/drivers_test.cpp ${tests}/textbook/tests/textbook_docs_test.cpp
+  ${tests}/certify/tests/drivers_test.cpp ${tests}/certify/tests/recheck_test.cpp ${tests}/textbook/tests/textbook_docs_test.cpp
   DEFINE SUREFILL_COMMAND="$<TARGET_FILE:surefill_command>"
   SUREFILL_ZOO_COMMAND="$<TARGET_FILE:surefill_zoo_command>"
   SUREFILL_ZOO_PLUGIN="$<TARGET_FILE:surefill_zoo>" SUREFILL_ENGINE_PLUGIN="$<TARGET_FILE:surefill_engine_plugin>"

@@ -20,6 +20,7 @@
 #include <unordered_map>
 
 #include "corpus/float_text.hpp"
+#include "corpus/mesh_files.hpp"
 #include "corpus/text_file.hpp"
 
 namespace surefill::meshes {
@@ -287,15 +288,39 @@ Mesh parse_obj(std::string_view bytes, std::string_view file) {
   return mesh;
 }
 
-Mesh load_obj(const std::string& path) {
+namespace {
+
+std::string bytes_of(const std::string& path) {
   std::error_code error;
   if (std::filesystem::is_directory(path, error)) throw MeshError(path + ": is a directory");
   std::ifstream stream(path, std::ios::binary);
   if (!stream) throw MeshError(path + ": " + std::generic_category().message(errno));
-  std::ostringstream text;
-  if (stream.peek() != std::ifstream::traits_type::eof()) text << stream.rdbuf();
+  std::ostringstream bytes;
+  if (stream.peek() != std::ifstream::traits_type::eof()) bytes << stream.rdbuf();
   if (stream.bad()) throw MeshError(path + ": cannot be read");
-  return parse_obj(std::move(text).str(), path);
+  return std::move(bytes).str();
+}
+
+bool ends_in(std::string_view name, std::string_view ending) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return name.size() >= ending.size() && std::equal(ending.begin(), ending.end(), name.end() - ending.size(),
+                                                    [lower](char a, char b) { return a == lower(b); });
+}
+
+}  // namespace
+
+Mesh load_obj(const std::string& path) {
+  return parse_obj(bytes_of(path), path);
+}
+
+Mesh load_mesh(const std::string& path) {
+  return parse_mesh(bytes_of(path), path);
+}
+
+Mesh parse_mesh(std::string_view bytes, std::string_view file) {
+  if (corpus::is_ply(bytes) || ends_in(file, ".ply")) return parse_obj(obj_of_ply(bytes, file), file);
+  if (corpus::is_stl(bytes) || ends_in(file, ".stl")) return parse_obj(obj_of_stl(bytes, file), file);
+  return parse_obj(bytes, file);
 }
 
 Double3 Box::centre() const {
@@ -327,8 +352,41 @@ void fit_planes(Camera& camera, const Mesh& mesh) {
   const double radius = box.radius() > 0 ? box.radius() * 1.01 : 1;
   const Double3 ahead = subtract(camera.target, camera.eye);
   const double distance = dot(subtract(box.centre(), camera.eye), ahead) / length(ahead);
+  if (camera.height > 0) {
+    camera.near_plane = distance - radius, camera.far_plane = distance + radius;
+    return;
+  }
   camera.far_plane = std::max(distance + radius, radius / 100);
   camera.near_plane = std::max(distance - radius, camera.far_plane / 10000);
+}
+
+namespace {
+
+// To the right, up, ahead: of length 1.
+std::array<Double3, 3> axes_of(const Camera& camera) {
+  const Double3 ahead = subtract(camera.target, camera.eye);
+  const Double3 forward = scaled(ahead, 1 / length(ahead));
+  const Double3 across = cross(forward, camera.up);
+  const Double3 right = scaled(across, 1 / length(across));
+  return {right, cross(right, forward), forward};
+}
+
+}  // namespace
+
+double fitting_height(const Camera& camera, const Mesh& mesh, int width, int height) {
+  const auto [right, up, forward] = axes_of(camera);
+  const double aspect = static_cast<double>(width) / height;
+  double half = 0;
+  for (const auto& triangle : mesh.triangles) {
+    for (const std::uint32_t vertex : triangle) {
+      const Float3& position = mesh.positions[vertex];
+      if (!finite(position)) continue;
+      const Double3 from = subtract(widened(position), camera.target);
+      half = std::max({half, std::abs(dot(up, from)), std::abs(dot(right, from)) / aspect});
+    }
+  }
+  constexpr double kMargin = 1.05;
+  return half > 0 ? 2 * half * kMargin : 1;
 }
 
 Camera framing_camera(const Mesh& mesh, int width, int height) {
@@ -353,6 +411,13 @@ void check_camera(const Camera& camera) {
     throw MeshError("the camera's eye and target are the same point");
   const double sine = length(cross(ahead, camera.up));
   if (!(sine > 0) || !std::isfinite(sine)) throw MeshError("the camera looks along its up direction");
+  if (camera.height > 0) {
+    if (!(camera.near_plane < camera.far_plane) || !std::isfinite(camera.far_plane - camera.near_plane) ||
+        !std::isfinite(camera.height)) {
+      throw MeshError("the camera needs near < far");
+    }
+    return;
+  }
   if (!(camera.field_of_view > 0 && camera.field_of_view < 180)) {
     throw MeshError("the field of view must lie between 0 and 180 degrees");
   }
@@ -362,16 +427,18 @@ void check_camera(const Camera& camera) {
 }
 
 ClipVertex project(const Camera& camera, double aspect, const Float3& position) {
-  const Double3 ahead = subtract(camera.target, camera.eye);
-  const Double3 forward = scaled(ahead, 1 / length(ahead));
-  const Double3 across = cross(forward, camera.up);
-  const Double3 right = scaled(across, 1 / length(across));
-  const Double3 up = cross(right, forward);
-  const double scale = 1 / std::tan(camera.field_of_view * std::numbers::pi / 360);
+  const auto [right, up, forward] = axes_of(camera);
   const Double3 from_eye = subtract(widened(position), camera.eye);
-  const double distance = dot(forward, from_eye);
-  const double depth = camera.far_plane / (camera.far_plane - camera.near_plane);
-  return {static_cast<float>(dot(right, from_eye) * scale / aspect), static_cast<float>(dot(up, from_eye) * scale),
+  const double across = dot(right, from_eye), above = dot(up, from_eye), distance = dot(forward, from_eye);
+  const double planes = camera.far_plane - camera.near_plane;
+  if (camera.height > 0) {
+    const double scale = 2 / camera.height;
+    return {static_cast<float>(across * scale / aspect), static_cast<float>(above * scale),
+            static_cast<float>((distance - camera.near_plane) / planes), 1};
+  }
+  const double scale = 1 / std::tan(camera.field_of_view * std::numbers::pi / 360);
+  const double depth = camera.far_plane / planes;
+  return {static_cast<float>(across * scale / aspect), static_cast<float>(above * scale),
           static_cast<float>((distance - camera.near_plane) * depth), static_cast<float>(distance)};
 }
 

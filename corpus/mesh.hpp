@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Real meshes: Wavefront OBJ to scenes. The library `surefill_mesh`; it depends on the corpus alone.
+// Real meshes: Wavefront OBJ, PLY and STL to scenes. The library `surefill_mesh`; it depends on the corpus alone.
 #ifndef SUREFILL_CERTIFY_MESH_HPP
 #define SUREFILL_CERTIFY_MESH_HPP
 
@@ -35,6 +35,13 @@ struct Mesh {
   std::uint64_t lost_triangles = 0;        // of polygons that could not be triangulated, such as those without area
 };
 
+// Reads a mesh: PLY or STL where its first bytes or its name say so, else OBJ. Throws MeshError, as load_obj and
+// corpus/mesh_files.hpp have it.
+Mesh load_mesh(const std::string& path);
+
+// The same from bytes; `file` is the name.
+Mesh parse_mesh(std::string_view bytes, std::string_view file);
+
 // Reads an OBJ file. Throws MeshError: missing, a directory, unreadable, a number that is none, a face of fewer than
 // three vertices or one that names a vertex that does not exist (so also where a file ends in the middle), no triangle
 // at all.
@@ -44,10 +51,12 @@ Mesh load_obj(const std::string& path);
 Mesh parse_obj(std::string_view text, std::string_view file = "mesh");
 
 // Where the mesh is seen from. Right-handed world; the field of view is vertical, in degrees, 0 < fov < 180; 0 < near <
-// far.
+// far. Orthographic: `height` units of the world fill the picture from top to bottom, near may be negative, and the
+// field of view does not matter.
 struct Camera {
   Double3 eye{0, 0, 1}, target{0, 0, 0}, up{0, 1, 0};
   double field_of_view = 40;
+  double height = 0;  // above 0: orthographic
   double near_plane = 0.1, far_plane = 100;
 };
 
@@ -63,13 +72,16 @@ Box bounds(const Mesh& mesh);
 // them.
 Camera framing_camera(const Mesh& mesh, int width, int height);
 
+// The height with which the picture just holds the mesh, as an orthographic camera from there sees it.
+double fitting_height(const Camera& camera, const Mesh& mesh, int width, int height);
+
 // near and far that hold the mesh between them as seen by this eye; near is far / 10,000 at least, also from inside.
 void fit_planes(Camera& camera, const Mesh& mesh);
 
 // Throws MeshError, without a file name, if the camera looks nowhere or its numbers are out of their ranges.
 void check_camera(const Camera& camera);
 
-// The perspective projection of one position to clip space, y up, depth [0, 1]: computed in double, each component
+// The projection of one position to clip space, y up, depth [0, 1]: computed in double, each component
 // rounded once to float32. Equal positions give equal bits.
 ClipVertex project(const Camera& camera, double aspect, const Float3& position);
 

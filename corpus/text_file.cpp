@@ -20,11 +20,6 @@ constexpr std::pair<std::string_view, std::string_view> kFormats[] = {
     {"PK\x03\x04"sv, "a zip archive"},
     {"glTF"sv, "a GLB file (binary glTF)"},
     {"{"sv, "JSON (glTF?)"},
-    {"ply\n"sv, "a PLY file"},
-    {"ply\r"sv, "a PLY file"},
-    {"solid "sv, "an STL file"},
-    {"solid\n"sv, "an STL file"},
-    {"solid\r"sv, "an STL file"},
     {"OFF\n"sv, "an OFF file"},
     {"OFF\r"sv, "an OFF file"},
     {"Kaydara FBX Binary"sv, "an FBX file"},
@@ -51,8 +46,17 @@ std::string_view without_byte_order_mark(std::string_view text) {
   return text;
 }
 
+bool is_ply(std::string_view bytes) {
+  return bytes.starts_with("ply\n"sv) || bytes.starts_with("ply\r"sv);
+}
+
+bool is_stl(std::string_view bytes) {
+  return is_binary_stl(bytes) || bytes.starts_with("solid "sv) || bytes.starts_with("solid\n"sv) ||
+         bytes.starts_with("solid\r"sv);
+}
+
 std::string what_is_not_read(std::string_view text) {
-  std::string_view format = is_binary_stl(text) ? "an STL file"sv : std::string_view();
+  std::string_view format = is_ply(text) ? "a PLY file"sv : is_stl(text) ? "an STL file"sv : ""sv;
   for (const auto& [begin, name] : kFormats) {
     if (text.starts_with(begin)) format = name;
   }

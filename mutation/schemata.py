@@ -36,8 +36,8 @@ COMPILER = [*(["ccache"] if shutil.which("ccache") else []), os.environ.get("CXX
 # out of an array's bounds ends the process.
 UNDEFINED = "bounds,float-cast-overflow,signed-integer-overflow,integer-divide-by-zero,shift"
 DEFINED = ["-ftrivial-auto-var-init=zero", "-fstrict-flex-arrays=3", f"-fsanitize={UNDEFINED}", f"-fsanitize-trap={UNDEFINED}"]
-FLAGS = ["-std=c++20", "-O2", "-ffp-contract=off", "-w", f'-DSUREFILL_MESHES="{ROOT}/corpus/meshes"',
-         f'-DSUREFILL_CORPUS="{ROOT}/corpus"', f"-I{ROOT}", f"-I{ROOT}/engine/include", f"-I{SCHEMATA}"]
+FLAGS = ["-std=c++20", "-O2", "-ffp-contract=off", "-w", f'-DSUREFILL_CORPUS="{ROOT}/corpus"',
+         f"-I{ROOT}", f"-I{ROOT}/engine/include", f"-I{SCHEMATA}"]
 # What the suite is made of: all of these folders, without their tests, and the checks of certify.
 FOLDERS = ["properties/machinery", "properties/generators", "properties/theorems", "corpus", "oracle", "engine/tests"]
 CHECKS = ["argument_check.cpp", "checks.cpp", "contract_checks.cpp", "judge.cpp", "mesh_checks.cpp"]

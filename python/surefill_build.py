@@ -41,7 +41,7 @@ def version() -> str:
 def metadata() -> str:
     return (f"Metadata-Version: 2.1\nName: surefill\nVersion: {version()}\n"
             "Summary: An exact triangle rasterizer for NumPy arrays: the same bits on every machine\n"
-            "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy>=1.21\n"
+            "License: Apache-2.0\nRequires-Python: >=3.9\nRequires-Dist: numpy>=1.19\n"
             "Classifier: Topic :: Multimedia :: Graphics :: 3D Rendering\nClassifier: Typing :: Typed\n"
             "Description-Content-Type: text/markdown\n\n" + (ROOT / "docs/python.md").read_text())
 

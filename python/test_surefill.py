@@ -419,6 +419,12 @@ class WrongCalls(unittest.TestCase):
         call(ValueError, "layers", layers=2, conservative="over")
         call(ValueError, "initial_depth", initial_depth=np.zeros((8, 6), np.float32))
 
+    def test_flat_arrays_are_told_the_cure(self):
+        for positions, triangles, cure in ((POSITIONS, [0, 1, 2], r"triangles\.reshape\(-1, 3\)"),
+                                           (np.zeros(12, np.float32), TRIANGLES, r"positions\.reshape\(-1, 4\)")):
+            with self.assertRaisesRegex(ValueError, cure):
+                surefill.rasterize(positions, triangles, SIZE)
+
     def test_interpolate(self):
         raster = surefill.rasterize(POSITIONS, TRIANGLES, SIZE)
         self.wrong(TypeError, "raster", surefill.interpolate, POSITIONS, raster.index)

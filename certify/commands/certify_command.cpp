@@ -27,35 +27,6 @@ namespace surefill::certify {
 
 namespace {
 
-// The words of a command line: split at blanks, with '...', "..." and backslashes as a shell has them, and nothing
-// else.
-std::vector<std::string> words_of(const std::string& text) {
-  std::vector<std::string> words;
-  bool inside = false;
-  char quote = 0;
-  for (std::size_t i = 0; i < text.size(); ++i) {
-    const char c = text[i];
-    if (quote == 0 && (c == ' ' || c == '\t')) {
-      inside = false;
-      continue;
-    }
-    if (!inside) words.emplace_back();
-    inside = true;
-    if (quote == 0 && (c == '\'' || c == '"')) {
-      quote = c;
-    } else if (c == quote) {
-      quote = 0;
-    } else if (c == '\\' && quote != '\'' && i + 1 < text.size()) {
-      words.back() += text[++i];
-    } else {
-      words.back() += c;
-    }
-  }
-  if (quote != 0) throw UsageError("--command: a quotation mark is not closed");
-  if (words.empty()) throw UsageError("--command: names no program");
-  return words;
-}
-
 // The plugin that is built, or installed, beside the command.
 std::filesystem::path driver_plugin(const std::string& adapter, const std::filesystem::path& self) {
   const std::string name = "libsurefill_" + adapter + ".so";
@@ -197,6 +168,35 @@ void add_rival_options(CLI::App& app, RivalChoice& choice) {
   add_decimal(
       app, "--time-limit", 0.01, 3600, [&choice](double seconds) { choice.time_limit = seconds; },
       "Seconds it may take for one scene (5)");
+}
+
+// The words of a command line: split at blanks, with '...', "..." and backslashes as a shell has them, and nothing
+// else.
+std::vector<std::string> words_of(const std::string& text) {
+  std::vector<std::string> words;
+  bool inside = false;
+  char quote = 0;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quote == 0 && (c == ' ' || c == '\t')) {
+      inside = false;
+      continue;
+    }
+    if (!inside) words.emplace_back();
+    inside = true;
+    if (quote == 0 && (c == '\'' || c == '"')) {
+      quote = c;
+    } else if (c == quote) {
+      quote = 0;
+    } else if (c == '\\' && quote != '\'' && i + 1 < text.size()) {
+      words.back() += text[++i];
+    } else {
+      words.back() += c;
+    }
+  }
+  if (quote != 0) throw UsageError("--command: a quotation mark is not closed");
+  if (words.empty()) throw UsageError("--command: names no program");
+  return words;
 }
 
 std::vector<std::string> RivalChoice::files() const {

@@ -35,6 +35,8 @@ struct RivalChoice {
   std::vector<std::string> files() const;  // what may be a file of the rasterizer, so that no output goes there
 };
 void add_rival_options(CLI::App& app, RivalChoice& choice);
+// The words of a command, as a shell splits them. Throws UsageError where a quotation mark is left open, or without any.
+std::vector<std::string> words_of(const std::string& command);
 
 // Starts it. Throws UsageError where it cannot be started or opened.
 std::unique_ptr<adapters::Rival> start_rival(const RivalChoice& choice);

@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -23,6 +22,7 @@
 #include "certify/commands/corpus_add.hpp"
 #include "certify/commands/explain.hpp"
 #include "certify/commands/options.hpp"
+#include "certify/commands/recheck.hpp"
 #include "certify/commands/replay.hpp"
 #include "certify/commands/vectors_command.hpp"
 #include "certify/report/picture.hpp"
@@ -34,6 +34,7 @@
 #include "certify/run/files.hpp"
 #include "certify/run/judge.hpp"
 #include "certify/run/progress.hpp"
+#include "corpus/folder.hpp"
 #include "corpus/mesh.hpp"
 #include "corpus/scene.hpp"
 #include "oracle/oracle.hpp"
@@ -58,7 +59,8 @@ void check_output(const OutputFile& output, const std::vector<std::string>& inpu
 
 struct RenderOptions {
   std::string input, output, size, eye, target, up, show = "depth", cull, renderer = "engine";
-  std::optional<double> field_of_view, near_plane, far_plane;
+  std::optional<double> field_of_view, near_plane, far_plane, height;
+  bool orthographic = false;
 };
 
 template <typename Number>
@@ -111,10 +113,12 @@ meshes::Camera camera_of(const RenderOptions& options, const meshes::Mesh& mesh,
   }
   if (options.field_of_view) camera.field_of_view = *options.field_of_view;
   if (camera.eye == camera.target) throw UsageError("the camera's eye and target are the same point");
+  if (options.orthographic)
+    camera.height = options.height.value_or(meshes::fitting_height(camera, mesh, width, height));
   meshes::fit_planes(camera, mesh);
   if (options.far_plane) camera.far_plane = *options.far_plane;
   if (options.near_plane) camera.near_plane = *options.near_plane;
-  if (options.far_plane && !options.near_plane)
+  if (options.far_plane && !options.near_plane && !options.orthographic)
     camera.near_plane = std::min(camera.near_plane, camera.far_plane / 10000);
   try {
     meshes::check_camera(camera);
@@ -129,7 +133,7 @@ corpus::Scene scene_to_render(const RenderOptions& options, Show show) {
   if (!options.size.empty()) size = parse_size(options.size);
   if (options.input.ends_with(".scene")) {
     if (!options.size.empty() || !options.eye.empty() || !options.target.empty() || !options.up.empty() ||
-        options.field_of_view || options.near_plane || options.far_plane) {
+        options.field_of_view || options.near_plane || options.far_plane || options.orthographic) {
       throw UsageError("a .scene file has its own size and camera");
     }
     corpus::Scene scene = corpus::read_scene_file(options.input);
@@ -138,7 +142,7 @@ corpus::Scene scene_to_render(const RenderOptions& options, Show show) {
     }
     return scene;
   }
-  const meshes::Mesh mesh = meshes::load_obj(options.input);
+  const meshes::Mesh mesh = meshes::load_mesh(options.input);
   if (mesh.non_finite_triangles > 0) {
     warn(fmt::format("{}: {} of {} triangles have a NaN or an infinity and are dropped", options.input,
                      mesh.non_finite_triangles, mesh.triangles.size()));
@@ -175,17 +179,9 @@ int run_render(const RenderOptions& options) {
 
 // The corpus that was compiled in, or one that lies beside the program or where an installation puts it.
 std::string find_corpus() {
-  std::vector<std::filesystem::path> places{SUREFILL_CORPUS};
-  std::error_code error;
-  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    places.push_back(program.parent_path() / "corpus");
-    places.push_back(program.parent_path().parent_path() / "share" / "surefill" / "corpus");
-  }
-  for (const std::filesystem::path& place : places) {
-    if (std::filesystem::is_directory(place, error)) return place.string();
-  }
-  throw UsageError("no corpus found; name its folder with --corpus");
+  const std::string folder = corpus::corpus_folder(SUREFILL_CORPUS);
+  if (folder.empty()) throw UsageError("no corpus found; name its folder with --corpus");
+  return folder;
 }
 
 // --- replay and reduce
@@ -268,7 +264,8 @@ int run(int argc, char** argv) {
   app.get_formatter()->column_width(34);
 
   RenderOptions render_options;
-  CLI::App* render_command = app.add_subcommand("render", "Draw an OBJ mesh or a .scene file into a PNG picture");
+  CLI::App* render_command =
+      app.add_subcommand("render", "Draw a mesh (OBJ, PLY, STL) or a .scene file into a PNG picture");
   render_command->add_option("FILE", render_options.input, "The mesh or scene")->required();
   render_command->add_option("-o,--output", render_options.output, "The picture to write")->required();
   render_command->add_option("--size", render_options.size, "WIDTHxHEIGHT in pixels (960x720)");
@@ -281,6 +278,10 @@ int run(int argc, char** argv) {
         *render_command, name, least, most, [&value](double number) { value = number; }, text);
   };
   add_number("--fov", render_options.field_of_view, 0, 180, "Vertical field of view in degrees (40)");
+  render_command->add_flag("--orthographic", render_options.orthographic, "Without perspective (sees the whole mesh)")
+      ->excludes("--fov");
+  add_number("--height", render_options.height, 1e-38, 1e38, "Of the world, from top to bottom (sees the whole mesh)");
+  render_command->get_option("--height")->needs("--orthographic");
   add_number("--near", render_options.near_plane, 1e-38, 1e38, "Distance of the near plane (fits the mesh)");
   add_number("--far", render_options.far_plane, 1e-38, 1e38, "Distance of the far plane (fits the mesh)");
   render_command->add_option("--show", render_options.show, "depth, index, barycentrics, normals or count")
@@ -298,6 +299,10 @@ int run(int argc, char** argv) {
   MergeOptions merge_options;
   CLI::App* merge_command = app.add_subcommand("merge", "Join the certificates of all shards of a run");
   add_merge_options(*merge_command, merge_options);
+
+  RecheckOptions recheck_options;
+  CLI::App* recheck_command = app.add_subcommand("recheck", "Run the findings of a certificate again");
+  add_recheck_options(*recheck_command, recheck_options);
 
   std::string plugin, plugin_arguments;  // the process that certify starts for a plugin
   CLI::App* host_command = app.add_subcommand("plugin-host", "")->group("");
@@ -361,12 +366,14 @@ int run(int argc, char** argv) {
   }
   if (app.get_subcommands().empty()) {
     throw UsageError(
-        "a subcommand is needed: render, certify, merge, replay, reduce, explain, vectors or verify (--help shows the "
+        "a subcommand is needed: render, certify, merge, recheck, replay, reduce, explain, vectors or verify (--help "
+        "shows the "
         "usage)");
   }
   if (render_command->parsed()) return run_render(render_options);
   if (certify_command->parsed()) return run_certify(certify_options, find_corpus);
   if (merge_command->parsed()) return run_merge(merge_options);
+  if (recheck_command->parsed()) return run_recheck(recheck_options, find_corpus);
   if (host_command->parsed()) return adapters::host_plugin(plugin, plugin_arguments);
   if (explain_command->parsed()) {
     print(explain(explain_options));

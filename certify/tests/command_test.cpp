@@ -99,6 +99,10 @@ TEST_F(Command, RefusesWrongUsage) {
   expect_refused("render a.obj -o out.png --eye 1,1,1 --target 1,1,1", "eye and target");
   expect_refused("render a.obj -o out.png --eye 0,1,0 --target 0,0,0", "up direction");
   expect_refused("render a.obj -o out.png --fov 180", "field of view");
+  expect_refused("render a.obj -o out.png --orthographic --fov 30", "--fov");
+  expect_refused("render a.obj -o out.png --height 3", "--orthographic");
+  expect_refused("render a.obj -o out.png --orthographic --height 0", "--height");
+  expect_refused("render a.obj -o out.png --orthographic --near 5 --far 4", "near < far");
   expect_refused("render a.obj -o out.png --near 5 --far 4", "near");
   expect_refused("render a.obj -o out.png --show shadow", "shadow");
   expect_refused("render a.obj -o out.png --cull left", "left");
@@ -113,7 +117,7 @@ TEST_F(Command, RefusesWrongUsage) {
 TEST_F(Command, RefusesEmptyValues) {
   int options = 0;
   for (const std::string subcommand :
-       {"render", "certify", "merge", "replay", "reduce", "explain", "corpus add", "zoo"}) {
+       {"render", "certify", "merge", "recheck", "replay", "reduce", "explain", "corpus add", "zoo"}) {
     std::istringstream help(run(subcommand + " --help").out);
     for (std::string line; std::getline(help, line);) {
       // "  -o,--output TEXT REQUIRED", and flags without a value.
@@ -121,7 +125,7 @@ TEST_F(Command, RefusesEmptyValues) {
       if (name == std::string::npos || (line.substr(0, name) != "  " && line.substr(0, name) != "  -o,")) continue;
       const std::size_t end = line.find(' ', name);
       if (end == std::string::npos || !std::isupper(static_cast<unsigned char>(line[end + 1]))) continue;
-      if (line.compare(end + 1, 6, "Needs:") == 0) continue;  // a flag
+      if (line.compare(end + 1, 6, "Needs:") == 0 || line.compare(end + 1, 9, "Excludes:") == 0) continue;  // a flag
       const std::string option = line.substr(name, end - name);
       expect_refused(subcommand + " a " + option + " ''", option + ": an empty value");
       if (options++ % 8 == 0) expect_refused(subcommand + " a " + option + "=", option + ": an empty value");
@@ -266,21 +270,20 @@ TEST_F(Command, RefusesBadFiles) {
   expect_refused("render normal.obj -o out.png", "normal.obj:5: the face names normal 2");
   expect_refused("render word.obj -o out.png", "word.obj:1:");
   expect_refused("render binary.obj -o out.png", "binary.obj:2: not a text file");
-  const std::string read = "scenes (.scene) and Wavefront OBJ meshes (.obj) are read";
-  const std::pair<std::string, std::string> others[] = {
-      {"\x1f\x8b\x08garbage", "gzip-compressed"},
-      {"ply\nformat ascii 1.0\n", "a PLY file"},
-      {"glTF\2\1", "a GLB file"},
-      {"solid cube\nfacet normal 0 0 1\n", "an STL file"},
-      {std::string(80, ' ') + std::string("\1\0\0\0", 4) + std::string(50, '\0'), "an STL file"},
-      {"\xff\xfev\1", "text in UTF-16"},
-      {"PK\3\4", "a zip archive"},
-      {"OFF\n3 1 0\n", "an OFF file"}};
+  const std::string read = "scenes (.scene) and meshes (Wavefront .obj, .ply, .stl) are read";
+  const std::pair<std::string, std::string> others[] = {{"\x1f\x8b\x08garbage", "gzip-compressed"},
+                                                        {"ply\nformat ascii 1.0\n", "a PLY file"},
+                                                        {"glTF\2\1", "a GLB file"},
+                                                        {"solid cube\nfacet normal 0 0 1\n", "an STL file"},
+                                                        {"\xff\xfev\1", "text in UTF-16"},
+                                                        {"PK\3\4", "a zip archive"},
+                                                        {"OFF\n3 1 0\n", "an OFF file"}};
   for (const auto& [bytes, name] : others) {
     write("other.obj", bytes);
     write("other.scene", bytes);
-    expect_refused("render other.obj -o out.png", "other.obj:1: this is " + name);
-    expect_refused("render other.obj -o out.png", read);
+    const bool is_mesh = name == "a PLY file" || name == "an STL file";  // read by its content, and then cut short
+    expect_refused("render other.obj -o out.png", is_mesh ? "other.obj: " : "other.obj:1: this is " + name);
+    expect_refused("render other.obj -o out.png", is_mesh ? "" : read);
     expect_refused("render other.scene -o out.png", "other.scene:1: this is " + name);
     expect_refused("replay other.scene", read);
   }
@@ -323,7 +326,26 @@ TEST_F(Command, DrawsPictures) {
     EXPECT_EQ(contents(path(std::string(show) + "-engine.png")), contents(path(std::string(show) + "-oracle.png")));
   }
   EXPECT_EQ(run("render a.obj --size 40x30 --eye 0.2,0.2,0.01 --target 0.2,0.3,-1 --fov 120 -o inside.png").status, 0);
-  EXPECT_EQ(files().size(), 12u);
+  const std::string flat = "render a.obj --size 40x30 --orthographic --show index ";
+  EXPECT_EQ(run(flat + "-o flat.png").status, 0);
+  EXPECT_EQ(run(flat + "--eye 0.5,0.5,-3 --target 0.5,0.5,0 --height 1.5 -o behind.png").status, 0);
+  EXPECT_EQ(run(flat + "--eye 0.5,0.5,3 --target 0.5,0.5,0 --height 1.5 --renderer oracle -o front.png").status, 0);
+  EXPECT_NE(contents(path("front.png")), contents(path("behind.png")));
+  // Without perspective a distance changes nothing.
+  EXPECT_EQ(run(flat + "--eye 0.5,0.5,9 --target 0.5,0.5,0 --height 1.5 -o far.png").status, 0);
+  EXPECT_EQ(contents(path("front.png")), contents(path("far.png")));
+  write(
+      "a.ply",
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  write("a.stl",
+        "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+        "0\nendloop\nendfacet\nendsolid\n");
+  for (const std::string mesh : {"a.ply", "a.stl"}) {
+    EXPECT_EQ(run("render " + mesh + " --size 40x30 --show index -o mesh.png").status, 0);
+    EXPECT_EQ(contents(path("mesh.png")), contents(path("index-engine.png"))) << mesh;
+  }
+  EXPECT_EQ(files().size(), 19u);
 }
 
 // Editors on Windows write one.

@@ -268,10 +268,10 @@ TEST(SceneText, RefusalsNameLineAndCause) {
       {"surefill-scene 1\ntarget 4 4\n", "f:2: no draw"},
       {"surefill-scene 1\ndraw\nend\n", "f:2: no target before the first draw"},
       {"\x1f\x8b\x08garbage",
-       "f:1: this is gzip-compressed: scenes (.scene) and Wavefront OBJ meshes (.obj) are read, as plain text in "
+       "f:1: this is gzip-compressed: scenes (.scene) and meshes (Wavefront .obj, .ply, .stl) are read; text in "
        "UTF-8"},
       {"\xff\xfes",
-       "f:1: this is text in UTF-16: scenes (.scene) and Wavefront OBJ meshes (.obj) are read, as plain text in UTF-8"},
+       "f:1: this is text in UTF-16: scenes (.scene) and meshes (Wavefront .obj, .ply, .stl) are read; text in UTF-8"},
       {with_frame_lines(std::string("sam\0ples 1", 10)), "f:3: control character: this is not a text file"},
       {with_frame_lines("# \x1b[0m"), "f:3: control character: this is not a text file"},
       {with_frame_lines("\x89PNG"), "f:3: unknown keyword '?PNG'"},

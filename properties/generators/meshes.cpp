@@ -15,6 +15,7 @@
 #include <string>
 #include <utility>
 
+#include "corpus/folder.hpp"
 #include "properties/machinery/trial.hpp"
 
 namespace surefill::properties {
@@ -76,7 +77,7 @@ std::vector<Indices> convex_hull(std::span<const std::array<float, 3>> points) {
 }
 
 Mesh load_mesh(const char* name) {
-  const std::string path = std::string(SUREFILL_MESHES) + "/" + name;
+  const std::string path = corpus::corpus_folder(SUREFILL_CORPUS) + "/meshes/" + name;
   tinyobj::ObjReader reader;
   tinyobj::ObjReaderConfig config;
   config.triangulate = true;

@@ -6,6 +6,7 @@
     raster = surefill.rasterize(positions, triangles, (height, width))
     raster.index, raster.depth, raster.barycentrics               # (height, width) uint32, float32; (height, width, 3) float32
     colours = surefill.interpolate(vertex_colours, raster)        # (height, width, C) float32
+    metric = surefill.interpolate(positions[:, 3], raster)        # linear depth, in the points' units, of a camera with intrinsics K
     packed = raster.packed()                                      # (height, width, 4), as nvdiffrast lays it out
 
 Coverage is decided on the given float32 values as real numbers; depth, barycentrics and attributes are the real value,

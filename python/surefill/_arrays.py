@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import numbers
-from typing import Any, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from . import _library as c
 from ._words import WORDS
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 Shape = Tuple[Optional[int], ...]
 
@@ -35,7 +37,9 @@ def check_shape(name: str, array: NDArray[Any], *shapes: Shape) -> None:
             return
     wanted = " or ".join("(" + ", ".join("any" if n is None else str(n) for n in s) + ("," if len(s) == 1 else "") + ")"
                          for s in shapes)
-    raise ValueError(f"{name}: shape {wanted} is needed, not {array.shape}")
+    row = shapes[0][-1]
+    cure = f"; {name}.reshape(-1, {row}) makes it" if array.ndim == 1 and len(shapes[0]) == 2 and row and array.size % row == 0 else ""
+    raise ValueError(f"{name}: shape {wanted} is needed, not {array.shape}{cure}")
 
 
 def floats(name: str, value: object, *shapes: Shape, convert: bool = False) -> NDArray[np.float32]:

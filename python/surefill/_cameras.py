@@ -6,13 +6,15 @@ stays shared, and every machine gets the same bits."""
 
 from __future__ import annotations
 
-from typing import Any, Optional, Sequence, Tuple
+from typing import TYPE_CHECKING, Any, Optional, Sequence, Tuple
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
 from ._arrays import any_array, check_shape, choice, floats, number, size_of
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 
 def to_pixel(clip: ArrayLike, size: Sequence[int], *, depth_range: Tuple[float, float] = (0.0, 1.0),
@@ -65,7 +67,7 @@ def _rigid(R: ArrayLike, t: ArrayLike) -> NDArray[np.float64]:
     rotation = _doubles("R", R, (3, 3), (None, 3, 3))
     shift = _doubles("t", t, (3,), (3, 1), (None, 3), (None, 3, 1))
     shift = shift.reshape(3, 1) if shift.size == 3 and rotation.ndim == 2 else shift.reshape(-1, 3, 1)
-    shape = np.broadcast_shapes(rotation.shape[:-2], shift.shape[:-2])
+    shape = np.broadcast(rotation[..., 0, 0], shift[..., 0, 0]).shape
     matrix = np.zeros((*shape, 4, 4))
     matrix[..., :3, :3], matrix[..., :3, 3:], matrix[..., 3, 3] = rotation, shift, 1
     return matrix

@@ -4,13 +4,15 @@
 from __future__ import annotations
 
 import ctypes
-from typing import Any, List, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, List, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
 from ._arrays import choice, floats, number, whole, whole_numbers, wholes
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 Interpolations = Union[str, Sequence[str]]
 

@@ -5,14 +5,16 @@ from __future__ import annotations
 
 import concurrent.futures
 import ctypes
-from typing import Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from . import _library as c
 from ._arrays import choice, floats, size_of, whole, wholes
 from ._draws import Draw, Groups, Interpolations, _pointer, batch_of, column_groups, draw_structs
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 Executor = concurrent.futures.ThreadPoolExecutor
 

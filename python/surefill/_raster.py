@@ -3,13 +3,15 @@
 
 from __future__ import annotations
 
-from typing import Any, Dict, List, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Dict, List, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
 
 from ._draws import Draw, Grid, Interpolations, batch_of
 from ._frames import OUTPUTS, Context, Executor, Frame, Settings, Statistics, check_draws, draw_frames
+
+if TYPE_CHECKING:
+    from numpy.typing import ArrayLike, NDArray
 
 NO_TRIANGLE: int = 0xFFFFFFFF
 """The index of a sample that no triangle covers."""

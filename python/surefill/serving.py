@@ -24,10 +24,12 @@ import os
 import struct
 import sys
 import traceback
-from typing import Any, Callable, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import TYPE_CHECKING, Any, Callable, List, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy as np
-from numpy.typing import NDArray
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 __all__ = ["Scene", "SceneAttribute", "SceneDraw", "Unsupported", "each_triangle", "serve"]
 

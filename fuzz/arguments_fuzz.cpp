@@ -82,7 +82,7 @@ class Arguments {
     if (status != Status::ok && statistics.dropped != kMark) fail("a refused call wrote the statistics");
     if (status != Status::ok) return status;  // the list of draws may be none
     std::size_t triangles = 0;
-    for (const Draw& draw : draws_) triangles += draw.indices.size() / 3;
+    for (const Draw& draw : draws_) triangles += draw.indices.size() / corners_of(draw);
     if (with_statistics_ && statistics.triangles() != triangles) fail("the statistics do not add up to the triangles");
     return status;
   }
@@ -287,8 +287,10 @@ class Arguments {
   void build_draw(Draw& draw, std::vector<AttributeArray>& arrays) {
     Spoiled how;
     draw.vertices = vertices(in_.below(7));
+    if (one_in(4)) draw.primitive = enumerator(Primitive::points, Status::draw_primitive);
     const std::size_t triangles = draw.vertices.empty() ? 0 : in_.below(5);
-    const std::span<std::uint32_t> indices = buffer<std::uint32_t>(3 * triangles + (one_in(32) ? 1 : 0), false, &how);
+    const std::span<std::uint32_t> indices =
+        buffer<std::uint32_t>(corners_of(draw) * triangles + (one_in(32) ? 1 : 0), false, &how);
     const bool readable = indices.data() != nullptr && indices.size() < kTooMany;
     if (readable && how != Spoiled::on_another && how != Spoiled::inside_another) {
       for (std::uint32_t& index : indices) {
@@ -298,8 +300,9 @@ class Arguments {
       }
     }
     draw.indices = indices;
-    note((indices.data() == nullptr && !indices.empty()) || indices.size() % 3 != 0, Status::draw_indices);
-    const std::size_t drawn = indices.size() / 3;
+    note((indices.data() == nullptr && !indices.empty()) || indices.size() % corners_of(draw) != 0,
+         Status::draw_indices);
+    const std::size_t drawn = indices.size() / corners_of(draw);
 
     if (one_in(4)) {
       const std::span<std::uint32_t> identifiers = buffer<std::uint32_t>(drawn < 16 ? drawn : 1, false, &how);
@@ -337,6 +340,7 @@ class Arguments {
     if (one_in(8)) draw.depth_bias = DepthBias{in_.real(), in_.real()};
     note(draw.depth_bias && !(std::isfinite(draw.depth_bias->constant) && std::isfinite(draw.depth_bias->slope)),
          Status::draw_depth_bias);
+    build_primitive(draw);
     note(target_.layers > 1 && !draw.depth_write, Status::target_layers);
     if (one_in(8)) draw.covered = numbers(draw, Status::draw_covered);
     if (one_in(8)) draw.visible = numbers(draw, Status::draw_visible);
@@ -347,7 +351,8 @@ class Arguments {
       note(!target_.sample_locations.empty(), Status::target_sample_locations);
       bool more = !target_.winding.empty() || !target_.depth.empty() || !target_.barycentrics.empty();
       for (const AttributeTarget& attribute : attribute_targets_) more = more || !attribute.values.empty();
-      note(more || target_.samples != 1 || draw.depth_mode != DepthMode::none || draw.grid.has_value(),
+      note(more || draw.primitive != Primitive::triangles || target_.samples != 1 ||
+               draw.depth_mode != DepthMode::none || draw.grid.has_value(),
            Status::draw_conservative);
     }
     if (one_in(8)) {
@@ -355,9 +360,25 @@ class Arguments {
     }
   }
 
+  // What goes with lines and points, and what does not (M7, I8).
+  void build_primitive(Draw& draw) {
+    if (one_in(4)) draw.width = one_in(2) ? in_.real() : static_cast<float>(in_.byte()) / 16;
+    note(draw.width && !(std::isfinite(*draw.width) && *draw.width > 0), Status::draw_width);
+    if (draw.primitive == Primitive::triangles) return;
+    note(draw.fill_rule > FillRule::northwards_west, Status::draw_fill_rule);
+    note(draw.grid.has_value(), Status::draw_grid);
+    note(draw.depth_bias.has_value(), Status::draw_depth_bias);
+    note(draw.primitive == Primitive::lines && !draw.width && target_.samples != 1, Status::draw_width);
+  }
+
+  // The vertices of a primitive.
+  static std::size_t corners_of(const Draw& draw) {
+    return draw.primitive == Primitive::triangles ? 3 : draw.primitive == Primitive::lines ? 2 : 1;
+  }
+
   // One number a triangle (M10).
   std::span<std::uint64_t> numbers(const Draw& draw, Status status) {
-    const std::size_t triangles = draw.indices.size() / 3;
+    const std::size_t triangles = draw.indices.size() / corners_of(draw);
     return triangles < 16 ? output<std::uint64_t>(triangles, status) : std::span<std::uint64_t>();
   }
 

@@ -409,7 +409,7 @@ constexpr Mutation kMutations[] = {
 // One of the modes of a frame or of a draw beyond the plain one. Where they do not go together the form refuses the scene.
 void change_mode(Scene& scene, Random& random) {
   SceneDraw& draw = any_draw(scene, random);
-  switch (random.below(7)) {
+  switch (random.below(9)) {
     case 0:
       scene.origin = random.one_in(2) ? Origin{random.between(-9, 9), random.between(-9, 9)}
                                       : Origin{random.between(-kMaxOrigin, kMaxOrigin), random.between(0, 3)};
@@ -432,6 +432,15 @@ void change_mode(Scene& scene, Random& random) {
     case 5:
       draw.depth_bias =
           DepthBias{static_cast<float>(random.between(-16, 16)) / 8, static_cast<float>(random.between(-16, 16)) / 8};
+      break;
+    case 6:
+      draw.primitive = static_cast<Primitive>(random.below(3));
+      for (corpus::SceneTriangle& primitive : draw.triangles)  // beyond its own the last vertex repeats
+        for (std::size_t i = corpus::corners_of(draw.primitive); i < 3; ++i)
+          primitive.vertices[i] = primitive.vertices[i - 1];
+      break;
+    case 7:
+      draw.width = std::ldexp(static_cast<float>(random.between(1, 40)), random.between(-8, 2));
       break;
     default:
       if (draw.conservative != Conservative::none) draw.conservative = static_cast<Conservative>(1 + random.below(4));

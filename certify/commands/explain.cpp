@@ -54,6 +54,7 @@ Explained explained(const corpus::Scene& scene, const std::string& file) {
   }
   Explained result{scene.width, scene.height, scene.samples, {}, 0};
   for (const Draw& draw : frame.draws()) {
+    if (draw.primitive != Primitive::triangles) continue;
     for (std::size_t t = 0; t < draw.indices.size() / 3; ++t) {
       Explained::OneTriangle one{{}, draw.fill_rule};
       bool finite = true;

@@ -156,9 +156,11 @@ corpus::Scene scene_to_render(const RenderOptions& options, Show show) {
 
 int run_render(const RenderOptions& options) {
   const std::optional<Show> show = show_by_name(options.show);
-  if (!show) throw UsageError("--show " + options.show + ": expected depth, index, barycentrics, normals or count");
+  if (!show)
+    throw UsageError("--show " + options.show + ": expected depth, index, barycentrics, normals, count or wireframe");
   check_output({"-o", options.output, {".png"}}, {options.input});
   corpus::Scene scene = scene_to_render(options, *show);
+  if (*show == Show::wireframe) scene = with_edges(std::move(scene));
   if (!options.cull.empty()) {
     const Cull cull = options.cull == "front" ? Cull::front : options.cull == "back" ? Cull::back : Cull::none;
     for (corpus::SceneDraw& draw : scene.draws) draw.cull = cull;
@@ -284,7 +286,7 @@ int run(int argc, char** argv) {
   render_command->get_option("--height")->needs("--orthographic");
   add_number("--near", render_options.near_plane, 1e-38, 1e38, "Distance of the near plane (fits the mesh)");
   add_number("--far", render_options.far_plane, 1e-38, 1e38, "Distance of the far plane (fits the mesh)");
-  render_command->add_option("--show", render_options.show, "depth, index, barycentrics, normals or count")
+  render_command->add_option("--show", render_options.show, "depth, index, barycentrics, normals, count or wireframe")
       ->check(CLI::IsMember({"depth", "index", "barycentrics", "normals", "count"}));
   render_command->add_option("--cull", render_options.cull, "Which faces are left out: none, front or back")
       ->check(CLI::IsMember({"none", "front", "back"}));

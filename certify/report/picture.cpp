@@ -8,6 +8,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
+#include <set>
+#include <utility>
 
 #include "certify/run/files.hpp"
 
@@ -83,6 +85,9 @@ class Palette {
         const double far = high_ > low_ ? (depth - low_) / (high_ - low_) : 0.0;
         return mix({0.98, 0.97, 0.94}, {0.24, 0.26, 0.34}, far);
       }
+      case Show::wireframe:
+        if (empty(sample)) return kBackground;
+        return image_.index[sample] < kFirstEdge ? Colour{0.98, 0.97, 0.94} : Colour{0.13, 0.2, 0.36};
       case Show::index:
         return empty(sample) ? kBackground : hashed(image_.index[sample]);
       case Show::barycentrics:
@@ -121,17 +126,47 @@ std::optional<Show> show_by_name(const std::string& name) {
   if (name == "barycentrics") return Show::barycentrics;
   if (name == "normals") return Show::normals;
   if (name == "count") return Show::count;
+  if (name == "wireframe") return Show::wireframe;
   return std::nullopt;
 }
 
 corpus::Outputs outputs_for(Show show) {
   corpus::Outputs outputs;
   outputs.count = show == Show::count;
-  outputs.index = show == Show::index || show == Show::barycentrics || show == Show::normals;
+  outputs.index = show == Show::wireframe || show == Show::index || show == Show::barycentrics || show == Show::normals;
   outputs.depth = show == Show::depth;
   outputs.barycentrics = show == Show::barycentrics;
   outputs.attributes = show == Show::normals;
   return outputs;
+}
+
+corpus::Scene with_edges(corpus::Scene scene) {
+  std::uint32_t first = kFirstEdge;
+  const std::size_t draws = scene.draws.size();
+  for (std::size_t d = 0; d < draws; ++d) {
+    if (scene.draws[d].primitive != Primitive::triangles) continue;
+    corpus::SceneDraw edges = scene.draws[d];
+    corpus::SceneDraw& faces = scene.draws[d];
+    faces.grid.reset(), faces.conservative = Conservative::none, faces.depth_bias = DepthBias{0, 1};
+    for (corpus::SceneTriangle& face : faces.triangles) face.identifier.reset();
+    std::set<std::array<std::uint32_t, 2>> pairs;
+    for (const corpus::SceneTriangle& face : faces.triangles) {
+      for (std::size_t i = 0; i < 3; ++i) {
+        const auto [low, high] = std::minmax(face.vertices[i], face.vertices[(i + 1) % 3]);
+        pairs.insert({low, high});
+      }
+    }
+    edges.state() = {};
+    edges.scissor = faces.scissor, edges.depth_mode = faces.depth_mode;
+    edges.primitive = Primitive::lines;
+    edges.first_index = first, first += static_cast<std::uint32_t>(pairs.size());
+    edges.triangles.clear();
+    for (const auto& [low, high] : pairs) edges.triangles.push_back({{low, high, high}, std::nullopt});
+    scene.draws.push_back(std::move(edges));
+  }
+  if (scene.samples != 1 && scene.initial_depth.size() > 1) scene.initial_depth.clear();
+  scene.samples = 1, scene.sample_locations.clear(), scene.layers = 1, scene.more = {};
+  return scene;
 }
 
 Picture picture_of(const corpus::Image& image, Show show) {

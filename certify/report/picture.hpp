@@ -13,7 +13,14 @@
 
 namespace surefill::certify {
 
-enum class Show { depth, index, barycentrics, normals, count };
+enum class Show { depth, index, barycentrics, normals, count, wireframe };
+
+// In a scene made for Show::wireframe, the indices from which on they are those of edges.
+inline constexpr std::uint32_t kFirstEdge = 0x80000000u;
+
+// The scene with the edges of its triangles as thin lines; the triangles hide what is behind them. They are moved back by their
+// slope, a pixel: a line's depth is that of a place of the edge at most half a pixel away (I7).
+corpus::Scene with_edges(corpus::Scene scene);
 
 std::optional<Show> show_by_name(const std::string& name);
 

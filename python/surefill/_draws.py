@@ -29,11 +29,11 @@ class Grid(NamedTuple):
 
 
 class Draw:
-    """Triangles in one state: what `render` takes a list of, and `rasterize` makes of its arguments.
+    """Triangles, lines or points in one state: what `render` takes a list of, and `rasterize` makes of its arguments.
 
     positions    (V, 4) float32, pixel-homogeneous: (X, Y, Z, W) is seen at pixel position (X/W, Y/W), x to the right, y down,
                  with depth Z/W. Any sign of W. `to_pixel` and the cameras make them. (N, V, 4): a batch of N images.
-    triangles    (T, 3) whole numbers: rows of positions.
+    triangles    (T, 3) whole numbers: rows of positions; (T, 2) where `primitive` is "lines", (T, 1) or (T,) where it is "points".
     attributes   (V, C), or (N, V, C) for a batch: a row for each vertex, any number of columns. (V,): one column, without an axis.
     interpolation  "perspective", "noperspective" or "flat" (the value of vertex 0), or a sequence of words, one a column.
     ranges       (N, 2) whole numbers: image k shows triangles from ranges[k, 0] on, ranges[k, 1] of them.
@@ -48,13 +48,16 @@ class Draw:
                  those that share an area with it, "touched" those that it touches though it be a line or a point.
     scissor      (x0, y0, x1, y1), half-open, in pixels; grid: a Grid, or its bits.
     culling_box  (8, 4): corners whose hull contains the draw, so that it can be skipped as a whole.
+    primitive    "triangles", "lines" or "points"; width: of lines, or the side of a point's square, in pixels, above 0. None: points
+                 of 1 pixel, and thin lines, which cover the samples whose diamond they leave; these need one sample a pixel.
     convert      True: numbers of positions, attributes and culling_box that float32 does not hold are rounded to nearest.
 
     Arrays of the right dtype that are C-contiguous are used where they lie; others are converted where float32 or uint32 holds
     each value, and refused otherwise."""
 
     __slots__ = ("_positions", "_triangles", "_attributes", "_single", "_interpolation", "_ranges", "_identifiers",
-                 "_first_index", "_state", "_depth_write", "_scissor", "_grid", "_culling_box", "_depth_bias", "_batch")
+                 "_first_index", "_state", "_depth_write", "_scissor", "_grid", "_culling_box", "_depth_bias", "_batch",
+                 "_primitive", "_width")
 
     def __init__(self, positions: ArrayLike, triangles: ArrayLike, *, attributes: Optional[ArrayLike] = None,
                  interpolation: Interpolations = "perspective", ranges: Optional[ArrayLike] = None,
@@ -62,14 +65,21 @@ class Draw:
                  front_face: str = "clockwise", cull: str = "none", depth_mode: str = "none", depth_write: bool = True,
                  depth_bias: Optional[Tuple[float, float]] = None, conservative: str = "none",
                  scissor: Optional[Sequence[int]] = None, grid: Union[None, int, Grid] = None,
-                 culling_box: Optional[ArrayLike] = None, convert: bool = False) -> None:
+                 culling_box: Optional[ArrayLike] = None, primitive: str = "triangles", width: Optional[float] = None,
+                 convert: bool = False) -> None:
         shape = np.shape(positions) if isinstance(positions, np.ndarray) else ()
         if len(shape) in (2, 3) and shape[-1] == 3:
             raise ValueError("positions: shape (any, 4) is needed, with W as the last column; a camera makes it of points "
                              "(surefill.opencv, opengl, orthographic), and of pixels and depth "
                              "numpy.column_stack([positions, numpy.ones(len(positions), numpy.float32)]) does")
         self._positions = floats("positions", positions, (None, 4), (None, None, 4), convert=convert)
-        self._triangles = whole_numbers("triangles", triangles, (None, 3), error=IndexError)
+        self._primitive = choice("primitive", primitive)
+        self._width = None if width is None else number("width", width)
+        if self._width is not None and not self._width > 0:
+            raise ValueError(f"width: a number above 0 is needed, not {width!r}")
+        corners = 3 - self._primitive
+        shapes: List[Tuple[Optional[int], ...]] = [(None, corners), (None,)] if corners == 1 else [(None, corners)]
+        self._triangles = whole_numbers("triangles", triangles, *shapes, error=IndexError).reshape(-1, corners)
         self._batch: Optional[int] = self._positions.shape[0] if self._positions.ndim == 3 else None
         self._ranges: Optional[List[Tuple[int, int]]] = None
         if ranges is not None:
@@ -123,7 +133,7 @@ class Draw:
     def _with(self, attributes: ArrayLike, interpolation: Interpolations, convert: bool) -> "Draw":
         """The same triangles with other attributes."""
         other = self._shallow()
-        corners, shape = 3 * len(self._triangles), np.shape(attributes)
+        corners, shape = self._triangles.size, np.shape(attributes)
         if attributes is None:
             raise TypeError("attributes: a NumPy array is needed, not NoneType")
         if shape[:1] == (corners,) and corners != self._positions.shape[-2]:
@@ -200,6 +210,9 @@ def draw_structs(draws: Sequence[Draw], image: int, groups: Sequence[Groups],
             struct.first_index = 0
         (struct.fill_rule, struct.front_face, struct.cull, struct.depth_mode, struct.conservative) = draw._state
         struct.depth_write_off = not draw._depth_write
+        struct.primitive = draw._primitive
+        if draw._width is not None:
+            c.set_float(struct, width=draw._width)
         if draw._scissor is not None:
             struct.scissor = ctypes.pointer(c.Scissor(*draw._scissor))
         if draw._grid is not None:

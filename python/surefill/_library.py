@@ -41,6 +41,7 @@ _ARGUMENTS = {
     21: "fill_rule", 22: "front_face", 23: "cull", 24: "depth_mode", 25: "conservative", 26: "grid", 27: "depth_range",
     28: "threads", 30: "boxes", 31: "answers", 34: "clip", 35: "outputs", 36: "origin", 37: "sample_locations", 38: "layers",
     39: "outputs", 40: "depth_bias", 41: "outputs", 42: "outputs",
+    43: "primitive", 44: "width",
 }
 
 
@@ -74,7 +75,8 @@ class Draw(ctypes.Structure):
                 ("conservative", c_uint32), ("depth_write_off", c_uint32), ("scissor", POINTER(Scissor)),
                 ("grid", POINTER(Grid)), ("culling_box", c_void_p), ("vertex_stride", c_size_t),
                 ("depth_bias", POINTER(DepthBias)), ("covered", c_void_p), ("covered_count", c_size_t),
-                ("visible", c_void_p), ("visible_count", c_size_t)]
+                ("visible", c_void_p), ("visible_count", c_size_t),
+                ("primitive", c_uint32), ("width", c_float)]
 
 
 class AttributeTarget(ctypes.Structure):

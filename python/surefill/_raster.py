@@ -182,7 +182,8 @@ def rasterize(positions: ArrayLike, triangles: ArrayLike, size: Sequence[int], *
               identifiers: Optional[ArrayLike] = None, samples: int = 1, fill_rule: str = "top_left",
               front_face: str = "clockwise", cull: str = "none", depth_test: str = "less", depth_mode: str = "none",
               depth_bias: Optional[Tuple[float, float]] = None, conservative: str = "none",
-              scissor: Optional[Sequence[int]] = None, grid: Union[None, int, Grid] = None, layers: Optional[int] = None,
+              scissor: Optional[Sequence[int]] = None, grid: Union[None, int, Grid] = None, primitive: str = "triangles",
+              width: Optional[float] = None, layers: Optional[int] = None,
               origin: Sequence[int] = (0, 0), sample_locations: Optional[Sequence[Sequence[int]]] = None,
               initial_depth: Optional[ArrayLike] = None, attribute_location: str = "centre", threads: int = 1,
               context: Optional[Context] = None, executor: Optional[Executor] = None, convert: bool = False,
@@ -191,7 +192,7 @@ def rasterize(positions: ArrayLike, triangles: ArrayLike, size: Sequence[int], *
 
     positions    (V, 4) float32, pixel-homogeneous: (X, Y, Z, W) is seen at pixel position (X/W, Y/W), x to the right, y down,
                  with depth Z/W. (N, V, 4): a batch of N images, which each output has as its first axis.
-    triangles    (T, 3) whole numbers, rows of positions.
+    triangles    (T, 3) whole numbers, rows of positions; (T, 2) for primitive="lines", (T, 1) or (T,) for "points".
     size         (height, width) in pixels, 1..16384 each.
     outputs      what is to be had; no more is computed: "index", "depth", "barycentrics", "count", "winding", ...
     attributes   (V, C) float32, any number of columns: `raster.attributes` then has them, in the same pass.
@@ -199,7 +200,7 @@ def rasterize(positions: ArrayLike, triangles: ArrayLike, size: Sequence[int], *
     The other arguments are those of `Draw` and `render`: help(surefill.Draw), help(surefill.render)."""
     draw = Draw(positions, triangles, attributes=attributes, interpolation=interpolation, ranges=ranges,
                 identifiers=identifiers, fill_rule=fill_rule, front_face=front_face, cull=cull, depth_mode=depth_mode,
-                depth_bias=depth_bias, conservative=conservative, scissor=scissor, grid=grid, convert=convert)
+                depth_bias=depth_bias, conservative=conservative, scissor=scissor, grid=grid, primitive=primitive, width=width, convert=convert)
     settings = Settings(size, samples=samples, depth_test=depth_test, layers=layers, origin=origin,
                         sample_locations=sample_locations, initial_depth=initial_depth, attribute_location=attribute_location,
                         threads=threads, context=context, executor=executor, batch=draw._batch)

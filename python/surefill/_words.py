@@ -9,6 +9,7 @@ WORDS: Dict[str, Tuple[str, ...]] = {
     "cull": ("none", "front", "back",),
     "depth_mode": ("none", "clip", "clamp",),
     "conservative": ("none", "over", "inner", "overlap", "touched",),
+    "primitive": ("triangles", "lines", "points",),
     "grid_rounding": ("nearest_even", "nearest_up", "truncate",),
     "depth_test": ("less", "greater", "less_equal", "greater_equal",),
     "attribute_location": ("centre", "centroid",),

@@ -33,6 +33,26 @@ TEST(Statistics, AreThoseOfM11) {
   for (const std::uint64_t some : {all.dropped, all.degenerate, all.culled, all.rasterized}) EXPECT_GT(some, 100u);
 }
 
+// Points and lines among the draws.
+TEST(Statistics, OfPointsAndLines) {
+  Statistics all;
+  for (const LineCategory& category : line_categories()) {
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+      const corpus::Scene scene = lines_scene(category, seed, 8, 6);
+      corpus::Frame frame(scene);
+      const Statistics expected = statistics_in_rationals(frame.draws());
+      for (const Options& options : {Options{}, Options{.path = Path::reference}}) {
+        Statistics actual;
+        ASSERT_EQ(render(frame.target(), frame.draws(), &actual, options), Status::ok);
+        ASSERT_EQ(actual, expected) << category.name << ", seed " << seed << '\n' << corpus::write_scene(scene);
+      }
+      all.dropped += expected.dropped, all.degenerate += expected.degenerate;
+      all.culled += expected.culled, all.rasterized += expected.rasterized;
+    }
+  }
+  for (const std::uint64_t some : {all.dropped, all.degenerate, all.culled, all.rasterized}) EXPECT_GT(some, 20u);
+}
+
 // Neither the target's size, samples and outputs nor scissor, depth mode and culling box have a part in them.
 TEST(Statistics, TellOfTheDrawsAlone) {
   for (const Category& category : categories()) {

@@ -291,6 +291,8 @@ TEST(LinesAgree, ByThePage) {
     if (scene.draws[0].conservative != Conservative::none) return;
     SCOPED_TRACE(corpus::write_scene(scene));
     covered += ByThePage(scene).check();
+    const Comparison comparison = compare(scene, oracle_renderer(), clipped_oracle_renderer());
+    ASSERT_EQ(comparison.differences, 0u) << text(comparison, scene);
   });
   if (kShare == 1) {
     EXPECT_GT(covered, 5'000u);

@@ -350,6 +350,16 @@ TEST_P(Lines, CentreAndCentroid) {
   EXPECT_EQ(values(image, 6), (Floats{1.5f, 1.5f, 0.75f})) << "the centre's q serves, covered or not";
 }
 
+// A ray from m_1 = (13/4, 1/2), away from where m_0 projects to: to -x. The centre of pixel 3, x = 7/2, lies past its end, and
+// past m_0 too: k_0, k_1 of the line that has no end would be negative.
+TEST_P(Lines, CentrePastBothEnds) {
+  const Image image =
+      draw({.width = 4, .samples = 4}, {lines({seen(3.375f, 0.5f, -1, 9), seen(3.25f, 0.5f, 2, 0.5f)}, 1, {5, 7})});
+  EXPECT_EQ(picture(image.count, 16), "111111111111..1.");
+  EXPECT_EQ(values(image, 14), (Floats{7, 7, 5}));
+  EXPECT_EQ(barycentrics(image, 14), (Floats{0, 1, 0}));
+}
+
 // S7: one sample at an own place is that place, for the diamond and all else.
 TEST_P(Lines, OwnPlaces) {
   Asked asked{.width = 4, .places = {{0, 0}}};

@@ -173,6 +173,19 @@ Ends one_behind(Random& r, int w, int h) {
   return ends;
 }
 
+// One end behind the eye, and its place less than a pixel from the other end's, which a ray has at its back.
+Ends behind_beside(Random& r, int w, int h) {
+  const Place p = r.one_in(2) ? centre(r, w, h) : lattice(r, w, h, 16);
+  const float x = p.x + static_cast<float>(r.between(-12, 12)) / 16;
+  const float y = p.y + static_cast<float>(r.between(-2, 2)) / 16;
+  Ends ends = {in_front(r, p), behind(r, {x, y})};
+  if (r.one_in(2)) {
+    for (Vertex& v : ends) std::swap(v.x, v.y);
+  }
+  if (r.one_in(2)) std::swap(ends[0], ends[1]);
+  return ends;
+}
+
 Ends both_behind(Random& r, int w, int h) {
   Ends ends = {behind(r, lattice(r, w, h, 2)), behind(r, lattice(r, w, h, 2))};
   if (r.one_in(3)) ends[r.below(2)].w = 0;
@@ -247,6 +260,7 @@ constexpr LineCategory kCategories[] = {
     {"line-through-corners", "A line passes corners of diamonds, or passes them by an ulp.", through_corners},
     {"line-zero-length", "Both ends are one place on the screen, or next to it.", zero_length},
     {"line-one-behind", "One end is behind the eye or at W = 0: a ray.", one_behind},
+    {"line-behind-beside", "One end is behind the eye, less than a pixel beside the other one.", behind_beside},
     {"line-both-behind", "Both ends are behind the eye or at W = 0.", both_behind},
     {"line-through-eye", "The eye lies on the line, or one ulp beside it.", through_eye},
     {"line-far-ends", "Ends lie up to 2^20 pixels off the target, and the line passes a sample.", far_ends},

@@ -21,10 +21,10 @@ class SmallTriangles : public CellDrawer<kDepth, kWinner, kCount> {
  protected:
   using Base = CellDrawer<kDepth, kWinner, kCount>;
   using Base::Base;
-  using Base::kSlots, Base::tile_x_, Base::tile_y_, Base::Ordinal, Base::CountLanes, Base::ExactLanes, Base::partly_,
-      Base::small_doubt_, Base::record_, Base::ranged_, Base::edge_, Base::edge_step_, Base::high_, Base::low_,
-      Base::high_step_, Base::least_step_, Base::most_step_, Base::offset_, Base::Clamp, Base::Fragment,
-      Base::StoreDepthSteps;
+  using Base::kSlots, Base::depth_, Base::winner_, Base::ordinal_, Base::tile_x_, Base::tile_y_, Base::Ordinal,
+      Base::CountLanes, Base::ExactLanes, Base::partly_, Base::small_doubt_, Base::record_, Base::ranged_, Base::edge_,
+      Base::edge_step_, Base::high_, Base::low_, Base::high_step_, Base::least_step_, Base::most_step_, Base::offset_,
+      Base::Clamp, Base::Fragment, Base::StoreDepthSteps;
 
   // ---- small: noted in a slot, and drawn with others
   HWY_INLINE void AddSmall(const Record& r, bool depth) {
@@ -55,7 +55,7 @@ class SmallTriangles : public CellDrawer<kDepth, kWinner, kCount> {
     partly_.Append(slots_, cells);
     for (int n = 0; kWinner && n < 4; ++n) noted_[row + 4 + n] |= (cells >> (4 * n) & 15) << (column + 4);
     small_doubt_ = std::max(small_doubt_, r.small.doubt);
-    record_[slots_++] = &r;
+    ordinal_[slots_] = Ordinal(r), record_[slots_++] = &r;
   }
   HWY_INLINE void AddDepth(const Record& r, std::size_t at) {
     const CellFloat df;
@@ -114,7 +114,10 @@ class SmallTriangles : public CellDrawer<kDepth, kWinner, kCount> {
         auto low = kExactDepth ? hn::Add(sum, hn::Add(start, hn::Sub(rest, error))) : sum;
         auto high = kExactDepth ? hn::Add(sum, hn::Add(start, hn::Add(rest, error))) : sum;
         if (ranged_) Clamp(r, low, high);
-        const auto unknown = Fragment(hn::RebindMask(df, covered), low, high, hn::Set(du, Ordinal(r)), cell + i);
+        const auto before = hn::Load(df, depth_ + cell + i);
+        const auto seen = hn::And(hn::RebindMask(df, covered), hn::Lt(low, before));
+        const auto unknown =
+            Fragment(seen, before, low, high, Base::OrdinalLanes(Ordinal(r)), depth_, winner_, cell + i);
         if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) ExactLanes(r, Bits(df, unknown), cell + i, true);
       }
     }

@@ -106,7 +106,8 @@ class CellDrawer : public HierarchicalZ {
       const std::size_t item = partly_.items[n], steps = kSmall ? item & 0xF0 : 0, offset = OffsetOf<kSmall>(item);
       if (kSmall && kWinner) ordinal = OrdinalLanes(ordinal_[item >> 4]);
       const CellStart cell = StartOf(item);
-      hn::Mask<CellFloat> unknown[kCellVectors];
+      hn::Mask<CellFloat> seen[kCellVectors];
+      hn::Vec<CellFloat> before[kCellVectors], low[kCellVectors], high[kCellVectors];
       HWY_DEFAULT_UNROLL
       for (std::size_t i = 0; i < kCellVectors; ++i) {
         const std::size_t at = offset + i * kCellLanes, step = steps + i * kCellLanes;
@@ -114,19 +115,20 @@ class CellDrawer : public HierarchicalZ {
         closest = hn::Max(closest, hn::BitCast(du, value));
         if constexpr (kCount) CountLanes(hn::Gt(value, hn::Set(d, -1)), at);
         if constexpr (kDepth) {
-          hn::Vec<CellFloat> low, high;
-          DepthOf(cell, step, low, high);
-          if (kRanged) Clamp(RecordOf<kSmall>(item), low, high);
-          const auto before = hn::Load(df, depth + at);
-          unknown[i] = Fragment(NotNegative(value, hn::Lt(low, before)), before, low, high, ordinal, depth, winner, at);
+          DepthOf(cell, step, low[i], high[i]);
+          if (kRanged) Clamp(RecordOf<kSmall>(item), low[i], high[i]);
+          before[i] = hn::Load(df, depth + at);
+          seen[i] = NotNegative(value, hn::Lt(low[i], before[i]));
         }
       }
       if constexpr (kDepth) {
-        auto some = unknown[0];
-        for (std::size_t i = 1; i < kCellVectors; ++i) some = hn::Or(some, unknown[i]);
-        if (HWY_LIKELY(Bits(df, some) == 0)) continue;
+        if (kWinner && !kSmall && SomeOf(seen) == 0) continue;
+        HWY_DEFAULT_UNROLL
+        for (std::size_t i = 0; i < kCellVectors; ++i)
+          seen[i] = Fragment(seen[i], before[i], low[i], high[i], ordinal, depth, winner, offset + i * kCellLanes);
+        if (HWY_LIKELY(SomeOf(seen) == 0)) continue;
         std::uint32_t lanes = 0;
-        for (std::size_t i = 0; i < kCellVectors; ++i) lanes |= Bits(df, unknown[i]) << (i * kCellLanes);
+        for (std::size_t i = 0; i < kCellVectors; ++i) lanes |= Bits(df, seen[i]) << (i * kCellLanes);
         late_[late++] = {partly_.items[n], static_cast<std::uint16_t>(lanes)};
       }
     }
@@ -135,6 +137,12 @@ class CellDrawer : public HierarchicalZ {
     partly_.size = 0;
   }
 
+  // Lanes of a cell that are set in one of its vectors.
+  static HWY_INLINE std::uint32_t SomeOf(const hn::Mask<CellFloat> (&lanes)[kCellVectors]) {
+    auto some = lanes[0];
+    for (std::size_t i = 1; i < kCellVectors; ++i) some = hn::Or(some, lanes[i]);
+    return Bits(CellFloat(), some);
+  }
   // The lanes that were noted, whose depth must be known better.
   template <bool kSmall>
   HWY_NOINLINE void SettleDepths(std::size_t size) {

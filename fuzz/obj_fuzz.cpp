@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// The OBJ path on any text: a MeshError of one line that names the file; or a mesh whose indices are in range and whose
+// The readers of meshes (OBJ; PLY and STL, which their first bytes or their size tell) on any bytes: a MeshError of one line that names the file; or a mesh whose indices are in range and whose
 // positions survive a round trip through text, that becomes a valid scene, which the engine draws as the oracle does.
 #include <fmt/format.h>
 
@@ -75,7 +75,7 @@ void check_picture(const meshes::Mesh& mesh, std::string_view text) {
 void check(std::string_view text) {
   meshes::Mesh mesh;
   try {
-    mesh = meshes::parse_obj(text, "input");
+    mesh = meshes::parse_mesh(text, "input");
   } catch (const meshes::MeshError& error) {
     const std::string_view message = error.what();
     if (!message.starts_with("input:")) fail("the error does not name the file: " + std::string(message), text);

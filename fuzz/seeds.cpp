@@ -88,6 +88,37 @@ void add_paths(SeedWriter& seeds, corpus::Scene scene, const std::string& name) 
 }
 
 // A mesh over the vertices of a small scene, as text.
+// A triangle and a quad as PLY, with a list and an element more, and the triangle as STL.
+void add_other_meshes(SeedWriter& seeds) {
+  const std::string elements =
+      "comment a\nelement vertex 4\nproperty float x\nproperty float y\nproperty double z\nproperty uchar red\n"
+      "element face 2\nproperty list uchar int vertex_indices\nelement edge 1\nproperty short a\nend_header\n";
+  seeds.add(
+      "obj", "ascii-ply",
+      "ply\nformat ascii 1.0\n" + elements + "0 0 0 1\n1 0 0.5 2\n1 1 -3e2 3\n0 1 nan 4\n3 0 1 2\n4 0 1 2 3\n-7\n");
+  for (const bool big : {false, true}) {
+    std::string bytes = std::string("ply\nformat binary_") + (big ? "big" : "little") + "_endian 1.0\n" + elements;
+    const auto add = [&bytes, big](std::uint64_t bits, std::size_t size) {
+      for (std::size_t k = 0; k < size; ++k) bytes += static_cast<char>(bits >> 8 * (big ? size - 1 - k : k) & 0xFF);
+    };
+    for (std::uint64_t v = 0; v < 4; ++v) {
+      add(v % 3 == 0 ? 0 : 0x3F800000, 4), add(v < 2 ? 0 : 0x3F800000, 4);
+      add(0x3FF0000000000000, 8), add(v, 1);
+    }
+    add(3, 1), add(0, 4), add(1, 4), add(2, 4);
+    add(4, 1), add(3, 4), add(2, 4), add(1, 4), add(0, 4), add(7, 2);
+    seeds.add("obj", big ? "big-ply" : "little-ply", bytes);
+  }
+  seeds.add("obj", "ascii-stl",
+            std::string_view("solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                             "endloop\nendfacet\nendsolid a\n"));
+  std::string binary(80, ' ');
+  for (const std::uint32_t word : {1u, 0u, 0u, 0u, 0u, 0u, 0u, 0x3F800000u, 0u, 0u, 0u, 0x3F800000u, 0u}) {
+    for (int k = 0; k < 4; ++k) binary += static_cast<char>(word >> 8 * k & 0xFF);
+  }
+  seeds.add("obj", "binary-stl", binary + std::string(2, '\0'));
+}
+
 void add_obj(SeedWriter& seeds, const corpus::Scene& scene, const std::string& name) {
   constexpr std::size_t kMostVertices = 32;
   const corpus::SceneDraw& draw = scene.draws.at(0);
@@ -174,6 +205,7 @@ void add_texts(SeedWriter& seeds) {
   seeds.add("adapter", "sizes-that-overflow", overflow);
   // A face on a line that ends, and begins, at a carriage return alone, without vertices.
   seeds.add("obj", "carriage-returns", std::string_view("o a\rf 5 3 10\r"));
+  add_other_meshes(seeds);
   seeds.add("certificate", "empty", std::string_view("{\"format\": \"surefill-certificate\", \"checks\": []}\n"));
 }
 

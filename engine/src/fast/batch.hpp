@@ -4,6 +4,8 @@
 #ifndef SUREFILL_SRC_FAST_BATCH_HPP
 #define SUREFILL_SRC_FAST_BATCH_HPP
 
+#include <cstddef>
+
 #include "fast/record.hpp"
 
 namespace surefill::fast {
@@ -16,11 +18,14 @@ struct alignas(64) Batch {
 
   // What the records get.
   alignas(64) std::int32_t first_x[kBatch], last_x[kBatch], first_y[kBatch], last_y[kBatch];
-  std::int32_t a[3][kBatch], b[3][kBatch], e[3][kBatch], doubt[kBatch];  // of small lanes
-  alignas(64) std::uint32_t cover[2][kBatch];                            // of tiny lanes
-  alignas(64) float high[kBatch], high_x[kBatch], high_y[kBatch], low[kBatch], low_x[kBatch], low_y[kBatch];
-  alignas(64) float low_error[kBatch], z_least[kBatch], z_most[kBatch];
-  alignas(64) double scaled_a[3][kBatch], scaled_b[3][kBatch], scaled_c[3][kBatch];  // of lanes that are not small
+  // Of small lanes, in the order of Record::small, whose words they are, without gaps.
+  alignas(64) std::int32_t a[3][kBatch];
+  std::int32_t b[3][kBatch], e[3][kBatch], doubt[kBatch];
+  float high[kBatch], high_x[kBatch], high_y[kBatch], low[kBatch], low_x[kBatch], low_y[kBatch], low_error[kBatch];
+  std::uint32_t cover[2][kBatch], unused[kBatch];  // of tiny lanes
+  alignas(64) float z_least[kBatch], z_most[kBatch];
+  // Of lanes that are not small.
+  alignas(64) double scaled_a[3][kBatch], scaled_b[3][kBatch], scaled_c[3][kBatch];
   alignas(64) double plane[kBatch], plane_x[kBatch], plane_y[kBatch], plane_error[kBatch];
 
   // Sets of lanes.
@@ -44,6 +49,8 @@ struct alignas(64) Batch {
   int origin_x(std::size_t lane) const { return first_x[lane] & ((small >> lane & 1) != 0 ? ~3 : ~7); }
   int origin_y(std::size_t lane) const { return first_y[lane] & ((small >> lane & 1) != 0 ? ~3 : ~7); }
 };
+
+static_assert(offsetof(Batch, unused) - offsetof(Batch, a) == 19 * kBatch * sizeof(std::uint32_t));
 
 }  // namespace surefill::fast
 

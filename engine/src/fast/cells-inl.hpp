@@ -23,7 +23,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 using CellInt = hn::CappedTag<std::int32_t, 16>;
 using CellUint = hn::RebindToUnsigned<CellInt>;
 using CellFloat = hn::RebindToFloat<CellInt>;
-constexpr std::size_t kCellLanes = hn::MaxLanes(CellInt());
+constexpr std::size_t kCellLanes = hn::MaxLanes(CellInt()), kCellVectors = 16 / kCellLanes;
 
 // Sample k of a cell is (k & 3, k >> 2); so is cell k of an area, and area k of a tile.
 alignas(64) constexpr std::int32_t kColumn[16] = {0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3, 0, 1, 2, 3};
@@ -35,6 +35,17 @@ alignas(64) constexpr float kRowFloat[32] = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2,
                                              4, 4, 4, 4, 5, 5, 5, 5, 6, 6, 6, 6, 7, 7, 7, 7};
 alignas(64) constexpr std::uint32_t kSampleBit[16] = {1,     2,     4,     8,     0x10,   0x20,   0x40,   0x80,
                                                       0x100, 0x200, 0x400, 0x800, 0x1000, 0x2000, 0x4000, 0x8000};
+
+// The lanes of a mask in which a value is not negative, for what looks at sign bits alone where a mask is a vector: IfThenElse
+// of floats and Bits.
+HWY_INLINE hn::Mask<CellFloat> NotNegative(hn::Vec<CellInt> value, hn::Mask<CellFloat> mask) {
+#if HWY_ARCH_X86 && (HWY_TARGET == HWY_AVX2 || HWY_TARGET == HWY_SSE4)
+  const CellFloat d;
+  return hn::MaskFromVec(hn::AndNot(hn::BitCast(d, value), hn::VecFromMask(d, mask)));
+#else
+  return hn::AndNot(hn::RebindMask(CellFloat(), hn::Lt(value, hn::Zero(CellInt()))), mask);
+#endif
+}
 
 // The positions of the set bits of a byte, in order in memory, and zeros.
 struct BitPositions {

@@ -18,8 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // A large triangle at the tile at hand.
 struct TilePlane {
-  double z, fall,
-      rise;  // depth at the tile's first sample; its largest changes to less and to more in one step each way
+  double z;                        // depth at the tile's first sample
   std::int32_t most[3], least[3];  // of edges: the largest and smallest change within a cell; most: and the doubt
   std::int32_t doubt;
   bool holds_tile;  // all edges hold the tile whole
@@ -37,11 +36,20 @@ struct TileBox {
     inner_rows = BitRange((y0 + 3) >> kCellLog2, ((y1 + 1) >> kCellLog2) - 1);
   }
   bool holds_tile() const { return (columns & rows & inner_columns & inner_rows) == 0xFFFF; }
+  // The areas that the box meets.
+  std::uint32_t areas() const {
+    const std::uint32_t x = some_of_four(columns);
+    return ((x | x >> 3 | x >> 6 | x >> 9) & 15) * 0x1111 & some_of_four(rows) * 15;
+  }
   // Of area n.
   std::uint32_t cells(std::uint32_t n) const { return cells_of(n, columns, rows); }
   std::uint32_t inner_cells(std::uint32_t n) const { return cells_of(n, inner_columns, inner_rows); }
 
  private:
+  static std::uint32_t some_of_four(std::uint32_t cells) {
+    cells |= cells >> 1;
+    return (cells | cells >> 2) & 0x1111;
+  }
   static std::uint32_t cells_of(std::uint32_t n, std::uint32_t columns, std::uint32_t rows) {
     return (columns >> (n & 3) * 4 & 15) * 0x1111u & kCellsOfRows[rows >> (n >> 2) * 4 & 15];
   }
@@ -61,9 +69,11 @@ class LargeTriangles : public SmallTriangles<kDepth, kWinner, kCount> {
   // Whether all of a record, of which depth is known, lies behind what the tile holds.
   HWY_INLINE bool IsHiddenHere(const Record& r) const {
     const double z = DepthAtTile(r) - r.large.z_error;
-    const double fall = std::min(0.0, r.large.z_x) + std::min(0.0, r.large.z_y);
-    return IsHidden(z + (kTileSize - 1) * fall, r.z_most, tile_far_);
+    return IsHidden(z + (kTileSize - 1) * FallOf(r), r.z_most, tile_far_);
   }
+  // The largest changes of depth to less and to more in one step each way.
+  static HWY_INLINE double FallOf(const Record& r) { return std::min(0.0, r.large.z_x) + std::min(0.0, r.large.z_y); }
+  static HWY_INLINE double RiseOf(const Record& r) { return std::max(0.0, r.large.z_x) + std::max(0.0, r.large.z_y); }
   // At the first sample.
   HWY_INLINE double DepthAtTile(const Record& r) const {
     return r.large.z + (r.large.z_x * (tile_x_ - r.origin_x()) + r.large.z_y * (tile_y_ - r.origin_y()));
@@ -76,36 +86,37 @@ class LargeTriangles : public SmallTriangles<kDepth, kWinner, kCount> {
     const bool depth = NeedsDepth(r), hides = hides_ && depth;
     TilePlane plane;
     plane.z = DepthAtTile(r);
-    plane.fall = std::min(0.0, r.large.z_x) + std::min(0.0, r.large.z_y);
-    plane.rise = std::max(0.0, r.large.z_x) + std::max(0.0, r.large.z_y);
     constexpr double kReach = kTileSize - 1;
     Clip clip = Clip::in;
-    if (HWY_UNLIKELY(r.has(Record::kClip)) && !special) clip = ClipOf(r, plane, plane.z, kReach);
+    if (HWY_UNLIKELY(r.has(Record::kClip)) && !special) clip = ClipOf(r, plane.z, kReach);
     if (clip == Clip::out) return;
-    const std::uint64_t visible = !kThin && hides ? VisibleBlocks(r, plane.z, plane.fall) : ~std::uint64_t{0};
+    const std::uint64_t visible = !kThin && hides ? VisibleBlocks(r, plane.z, FallOf(r)) : ~std::uint64_t{0};
     if (visible == 0) return;
-    std::uint32_t possible = SetUpAreas(r, plane);
-    if (possible == 0) return;
     const TileBox box(r, tile_x_, tile_y_);
+    std::uint32_t possible = SetUpAreas(r, plane) & box.areas();
+    if (possible == 0) return;
     if (kCount && !kDepth && plane.holds_tile && box.holds_tile() && clip == Clip::in && !special) {
       ++whole_tile_;
       return;
     }
     if (depth) SetUpDepth(r, plane);
+    const bool borders = special || r.has(Record::kBorder) || clip == Clip::some;
     std::uint64_t whole = 0;  // blocks, of which `far` may become less
     for (; possible != 0; possible &= possible - 1) {
       const auto n = static_cast<std::uint32_t>(std::countr_zero(possible));
       const std::uint32_t visible_cells = kThin ? 0xFFFF : kCellsOfBlocks[visible >> 4 * n & 15];
       if (!kThin && visible_cells == 0) continue;
       std::uint32_t full = 0;
-      std::uint32_t cells = SetUpCells<kThin>(plane, n, special || r.has(Record::kBorder) || clip == Clip::some, full);
+      std::uint32_t cells = SetUpCells<kThin>(plane, n, borders, full);
       cells &= box.cells(n) & visible_cells;
       if (!kThin && hides) whole |= WholeBlocks(cells & full) << 4 * n;
       if (cells == 0) continue;
       if (depth) PlaceDepth(n);
       const Clip of_area = HWY_UNLIKELY(clip == Clip::some) ? ClipOfArea(r, plane, n) : Clip::in;
       if (of_area == Clip::out) continue;
-      ListCells<kThin>(n, cells, full, special || of_area == Clip::some ? 0 : box.inner_cells(n));
+      std::uint32_t inner = 0xFFFF;
+      if (HWY_UNLIKELY(borders)) inner = special || of_area == Clip::some ? 0 : box.inner_cells(n);
+      ListCells<kThin>(n, cells, full, inner);
     }
     record_[0] = &r, small_doubt_ = plane.doubt;
     ranged_ ? DrawListed<kThin, true>(r) : DrawListed<kThin, false>(r);
@@ -137,17 +148,17 @@ class LargeTriangles : public SmallTriangles<kDepth, kWinner, kCount> {
 
   // Whether depth within `reach` samples from where it is z lies in 0..1, outside it, or neither surely.
   enum class Clip { in, out, some };
-  Clip ClipOf(const Record& r, const TilePlane& plane, double z, double reach) const {
+  Clip ClipOf(const Record& r, double z, double reach) const {
     const double least = r.z_least, most = r.z_most;
-    const double low = std::clamp(z + reach * plane.fall - r.large.z_error, least, most);
-    const double high = std::clamp(z + reach * plane.rise + r.large.z_error, least, most);
+    const double low = std::clamp(z + reach * FallOf(r) - r.large.z_error, least, most);
+    const double high = std::clamp(z + reach * RiseOf(r) + r.large.z_error, least, most);
     if (high < near_ || low > far_) return Clip::out;
     return low > near_ && high < far_ ? Clip::in : Clip::some;
   }
 
   Clip ClipOfArea(const Record& r, const TilePlane& plane, std::uint32_t n) const {
     const int area_x = static_cast<int>(n & 3) * kAreaSize, area_y = static_cast<int>(n >> 2) * kAreaSize;
-    return ClipOf(r, plane, plane.z + (r.large.z_x * area_x + r.large.z_y * area_y), kAreaSize - 1);
+    return ClipOf(r, plane.z + (r.large.z_x * area_x + r.large.z_y * area_y), kAreaSize - 1);
   }
 
   // The edges at the tile and at its areas. Returns the areas that may be reached.
@@ -175,16 +186,14 @@ class LargeTriangles : public SmallTriangles<kDepth, kWinner, kCount> {
     std::uint32_t outside = 0;
     for (std::size_t n = 0; n < 16 / kCellLanes; ++n)
       outside |= Bits(d, hn::Lt(lanes[n], hn::Zero(d))) << (n * kCellLanes);
-    const std::uint32_t columns = BitRange((r.x0 - tile_x_) >> kAreaLog2, std::min((r.x1 - tile_x_) >> kAreaLog2, 3));
-    const std::uint32_t rows = BitRange((r.y0 - tile_y_) >> kAreaLog2, std::min((r.y1 - tile_y_) >> kAreaLog2, 3));
-    return ~outside & ((columns & 15) * 0x1111u) & kCellsOfRows[rows & 15];
+    return ~outside & 0xFFFF;
   }
 
   // The edges at the cells of area n. Returns those not known to be outside (a hint: time alone hangs on it), `full`: inside.
   template <bool kThin>
-  HWY_INLINE std::uint32_t SetUpCells(const TilePlane& plane, std::size_t n, bool special, std::uint32_t& full) {
+  HWY_INLINE std::uint32_t SetUpCells(const TilePlane& plane, std::size_t n, bool borders, std::uint32_t& full) {
     const CellInt d;
-    if (!kThin && plane.holds_tile && !special) return full = 0xFFFF;
+    if (!kThin && plane.holds_tile && !borders) return full = 0xFFFF;
     std::uint32_t outside = 0, cut = 0;
     for (std::size_t i = 0; i < 16; i += kCellLanes) {
       auto outside_lanes = hn::Zero(d), cut_lanes = outside_lanes;

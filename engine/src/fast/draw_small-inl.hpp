@@ -21,10 +21,10 @@ class SmallTriangles : public CellDrawer<kDepth, kWinner, kCount> {
  protected:
   using Base = CellDrawer<kDepth, kWinner, kCount>;
   using Base::Base;
-  using Base::kSlots, Base::tile_x_, Base::tile_y_, Base::Ordinal, Base::CountLanes, Base::ExactLanes, Base::partly_,
-      Base::small_doubt_, Base::record_, Base::ranged_, Base::edge_, Base::edge_step_, Base::high_, Base::low_,
-      Base::high_step_, Base::least_step_, Base::most_step_, Base::offset_, Base::Clamp, Base::Fragment,
-      Base::StoreDepthSteps;
+  using Base::kSlots, Base::depth_, Base::winner_, Base::ordinal_, Base::tile_x_, Base::tile_y_, Base::Ordinal,
+      Base::CountLanes, Base::ExactLanes, Base::partly_, Base::small_doubt_, Base::record_, Base::ranged_, Base::edge_,
+      Base::edge_step_, Base::high_, Base::low_, Base::high_step_, Base::least_step_, Base::most_step_, Base::offset_,
+      Base::Clamp, Base::Fragment, Base::StoreDepthSteps;
 
   // ---- small: noted in a slot, and drawn with others
   HWY_INLINE void AddSmall(const Record& r, bool depth) {
@@ -55,7 +55,7 @@ class SmallTriangles : public CellDrawer<kDepth, kWinner, kCount> {
     partly_.Append(slots_, cells);
     for (int n = 0; kWinner && n < 4; ++n) noted_[row + 4 + n] |= (cells >> (4 * n) & 15) << (column + 4);
     small_doubt_ = std::max(small_doubt_, r.small.doubt);
-    record_[slots_++] = &r;
+    ordinal_[slots_] = Ordinal(r), record_[slots_++] = &r;
   }
   HWY_INLINE void AddDepth(const Record& r, std::size_t at) {
     const CellFloat df;
@@ -82,41 +82,40 @@ class SmallTriangles : public CellDrawer<kDepth, kWinner, kCount> {
   // ---- tiny: what it covers is known, and it is drawn at once
   HWY_INLINE void DrawTiny(const Record& r) {
     const int column = ((r.x0 & ~3) - tile_x_) >> kCellLog2, row = ((r.y0 & ~3) - tile_y_) >> kCellLog2;
-    const auto some = [](std::uint32_t samples) { return static_cast<std::uint32_t>(samples != 0); };
-    const std::uint32_t left = r.small.cover[0], right = r.small.cover[1];
-    std::uint32_t cells =
-        some(left & 0xFFFF) | some(right & 0xFFFF) << 1 | some(left >> 16) << 2 | some(right >> 16) << 3;
-    for (; cells != 0; cells &= cells - 1) {
-      const int n = std::countr_zero(cells), x = column + (n & 1), y = row + (n >> 1);
-      const std::uint32_t covered = r.small.cover[n & 1] >> (n & 2) * 8 & 0xFFFF;
+    // A vector's lanes at a time; a cell has 16 bits, the one below it the next, then those to the right.
+    constexpr std::uint64_t kLanes = (std::uint64_t{1} << kCellLanes) - 1;
+    std::uint64_t samples = r.small.cover[0] | std::uint64_t{r.small.cover[1]} << 32;
+    while (samples != 0) {
+      const int first = std::countr_zero(samples) & -static_cast<int>(kCellLanes);
+      const auto lanes = static_cast<std::uint32_t>(samples >> first & kLanes);
+      samples &= ~(kLanes << first);
+      const int right = first >> 5, below = first >> 4 & 1, x = column + right, y = row + below, i = first & 15;
       if (HWY_UNLIKELY(((x | y) & ~15) != 0)) continue;  // of another tile
-      DrawTinyCell(r, covered, kCellOffsets.column[x + 4] + kCellOffsets.row[y + 4], kColumnFloat + (n & 1) * 16,
-                   kRowFloat + (n >> 1) * 16);
+      DrawTinyLanes(r, lanes, kCellOffsets.column[x + 4] + kCellOffsets.row[y + 4] + static_cast<std::size_t>(i),
+                    kColumnFloat + right * 16 + i, kRowFloat + below * 16 + i);
     }
   }
-  HWY_INLINE void DrawTinyCell(const Record& r, std::uint32_t samples, std::size_t cell, const float* columns,
-                               const float* rows) {
-    const CellInt d;
+  HWY_INLINE void DrawTinyLanes(const Record& r, std::uint32_t lanes, std::size_t offset, const float* columns,
+                                const float* rows) {
     const CellUint du;
     const CellFloat df;
-    for (std::size_t i = 0; i < 16; i += kCellLanes) {
-      if (kCellLanes < 16 && (samples >> i & ((1u << kCellLanes) - 1)) == 0) continue;
-      const auto covered = hn::Ne(hn::And(hn::Set(du, samples), hn::Load(du, kSampleBit + i)), hn::Zero(du));
-      if constexpr (kCount) CountLanes(hn::RebindMask(d, covered), cell + i);
-      if constexpr (kDepth) {
-        const auto x = hn::Load(df, columns + i), y = hn::Load(df, rows + i);
-        const auto along = [&](float by_x, float by_y) {
-          return hn::Add(hn::Mul(hn::Set(df, by_x), x), hn::Mul(hn::Set(df, by_y), y));
-        };
-        const auto sum = hn::Add(hn::Set(df, r.small.high), along(r.small.high_x, r.small.high_y));
-        const auto rest = along(r.small.low_x, r.small.low_y), error = hn::Set(df, r.small.low_error);
-        const auto start = hn::Set(df, r.small.low);
-        auto low = kExactDepth ? hn::Add(sum, hn::Add(start, hn::Sub(rest, error))) : sum;
-        auto high = kExactDepth ? hn::Add(sum, hn::Add(start, hn::Add(rest, error))) : sum;
-        if (ranged_) Clamp(r, low, high);
-        const auto unknown = Fragment(hn::RebindMask(df, covered), low, high, hn::Set(du, Ordinal(r)), cell + i);
-        if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) ExactLanes(r, Bits(df, unknown), cell + i, true);
-      }
+    const auto bits = hn::Load(du, kSampleBit), covered = hn::And(hn::Set(du, lanes), bits);
+    if constexpr (kCount) CountLanes(hn::RebindMask(CellInt(), hn::Eq(covered, bits)), offset);
+    if constexpr (kDepth) {
+      const auto x = hn::Load(df, columns), y = hn::Load(df, rows);
+      const auto along = [&](float by_x, float by_y) {
+        return hn::Add(hn::Mul(hn::Set(df, by_x), x), hn::Mul(hn::Set(df, by_y), y));
+      };
+      const auto sum = hn::Add(hn::Set(df, r.small.high), along(r.small.high_x, r.small.high_y));
+      const auto rest = along(r.small.low_x, r.small.low_y), error = hn::Set(df, r.small.low_error);
+      const auto start = hn::Set(df, r.small.low);
+      auto low = kExactDepth ? hn::Add(sum, hn::Add(start, hn::Sub(rest, error))) : sum;
+      auto high = kExactDepth ? hn::Add(sum, hn::Add(start, hn::Add(rest, error))) : sum;
+      if (ranged_) Clamp(r, low, high);
+      const auto before = hn::Load(df, depth_ + offset);
+      const auto seen = hn::And(hn::RebindMask(df, hn::Eq(covered, bits)), hn::Lt(low, before));
+      const auto unknown = Fragment(seen, before, low, high, Base::OrdinalLanes(Ordinal(r)), depth_, winner_, offset);
+      if (HWY_UNLIKELY(!hn::AllFalse(df, unknown))) ExactLanes(r, Bits(df, unknown), offset, true);
     }
   }
 

@@ -52,7 +52,7 @@ struct alignas(128) Record {
     struct {
       std::int32_t a[3], b[3], e[3], doubt;
       float high, high_x, high_y, low, low_x, low_y, low_error;
-      std::uint32_t cover[2];
+      std::uint32_t cover[2], unused;
     } small;
     // Edges in double, scaled for a tile's integers: a x + b y + c. Depth about the first sample of the box's first
     // block, its steps, and a bound of the error at any sample of the box.
@@ -72,7 +72,7 @@ struct alignas(128) Record {
   int origin_x() const { return x0 & ~(kBlockSize - 1); }
   int origin_y() const { return y0 & ~(kBlockSize - 1); }
 };
-static_assert(sizeof(Record) == 128);
+static_assert(sizeof(Record) == 128 && sizeof(Record::small) == 80);
 
 // The edges of a large triangle in integers, from the sample (x, y) on, the first of a tile; as in Record::small.
 struct TileEdges {

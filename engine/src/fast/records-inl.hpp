@@ -9,6 +9,9 @@
 #define SUREFILL_SRC_FAST_RECORDS_INL_HPP
 #endif
 
+#include <cstddef>
+#include <cstring>
+
 #include "fast/set_up-inl.hpp"
 
 HWY_BEFORE_NAMESPACE();
@@ -31,7 +34,19 @@ class PieceWriter {
     if ((r.y1 & 3) != 0) border_y1_ = r.y1 - 1;
   }
 
-  // Adds a lane of a batch. False if there is no room.
+  // Before lanes of a batch are added: the words of small ones, four together of each lane.
+  HWY_INLINE void Take(const Batch& batch) {
+    const hn::CappedTag<std::uint32_t, kBatch> d;
+    const auto* from =
+        reinterpret_cast<const std::uint32_t*>(reinterpret_cast<const char*>(&batch) + offsetof(Batch, a));
+    for (std::size_t n = 0; n < 5; ++n, from += 4 * kBatch) {
+      for (std::uint32_t lane = 0; lane < kBatch; lane += kWide) {
+        const auto word = [&](std::size_t k) { return hn::Load(d, from + k * kBatch + lane); };
+        hn::StoreInterleaved4(word(0), word(1), word(2), word(3), d, words_[n][lane]);
+      }
+    }
+  }
+  // Adds a lane of the batch that was taken. False if there is no room.
   HWY_INLINE bool Add(const Batch& batch, std::uint32_t lane, std::uint32_t fan_triangle) {
     if (HWY_UNLIKELY(records_ == kPieceRecords)) return false;
     Record& r = piece_.records[records_];
@@ -40,11 +55,12 @@ class PieceWriter {
     r.position = batch.position[lane];
     r.z_least = batch.z_least[lane], r.z_most = batch.z_most[lane];
     const std::uint32_t slow = batch.slow_depth & (job_.depth ? ~0u : batch.clip);
-    std::uint32_t flags = (slow >> lane & 1) * Record::kSlowDepth | (batch.clip >> lane & 1) * Record::kClip |
-                          fan_triangle * Record::kFirstOfFan;
+    std::uint32_t flags = fan_triangle * Record::kFirstOfFan;
+    if (((slow | batch.clip) >> lane & 1) != 0)
+      flags |= (slow >> lane & 1) * Record::kSlowDepth | (batch.clip >> lane & 1) * Record::kClip;
     if (has_border_ && TouchesBorder(r)) flags |= Record::kBorder;
     if (small) {
-      FillSmall(r, batch, lane);
+      FillSmall(r, lane);
       flags |= Record::kSmall | (batch.tiny >> lane & 1) * Record::kTiny;
     } else {
       FillLarge(r, batch, lane);
@@ -94,14 +110,9 @@ class PieceWriter {
     r.x0 = static_cast<std::uint16_t>(x0), r.y0 = static_cast<std::uint16_t>(y0);
     r.x1 = static_cast<std::uint16_t>(x1), r.y1 = static_cast<std::uint16_t>(y1);
   }
-  static HWY_INLINE void FillSmall(Record& r, const Batch& batch, std::uint32_t lane) {
-    for (std::size_t k = 0; k < 3; ++k)
-      r.small.a[k] = batch.a[k][lane], r.small.b[k] = batch.b[k][lane], r.small.e[k] = batch.e[k][lane];
-    r.small.doubt = batch.doubt[lane];
-    r.small.high = batch.high[lane], r.small.high_x = batch.high_x[lane], r.small.high_y = batch.high_y[lane];
-    r.small.low = batch.low[lane], r.small.low_x = batch.low_x[lane], r.small.low_y = batch.low_y[lane];
-    r.small.low_error = batch.low_error[lane];
-    r.small.cover[0] = batch.cover[0][lane], r.small.cover[1] = batch.cover[1][lane];
+  HWY_INLINE void FillSmall(Record& r, std::uint32_t lane) const {
+    for (std::size_t n = 0; n < 5; ++n)
+      std::memcpy(reinterpret_cast<char*>(&r.small) + 16 * n, words_[n][lane], sizeof words_[n][lane]);
   }
   static HWY_INLINE void FillLarge(Record& r, const Batch& batch, std::uint32_t lane) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -176,6 +187,7 @@ class PieceWriter {
   std::uint32_t records_ = 0;
   std::size_t size_ = 0;  // of pairs_
   bool has_border_ = false;
+  alignas(64) std::uint32_t words_[5][kBatch][4];
   int border_x0_ = -1, border_y0_ = -1, border_x1_ = -1, border_y1_ = -1;  // where cells reach beyond the region
 };
 
@@ -189,6 +201,7 @@ HWY_NOINLINE bool AddClipped(const DrawJob& job, std::uint32_t position, PieceWr
   std::uint32_t lanes = SetUpFan(job, position, snapped, fan, turns, rungs);
   const auto before = writer.Now();
   bool fits = !turns;
+  if (lanes != 0) writer.Take(fan);
   for (; fits && lanes != 0; lanes &= lanes - 1) {
     const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
     fits = writer.Add(fan, lane, lane + 1);
@@ -220,11 +233,13 @@ void SetUp(const TileGrid& grid, Piece& piece, Scratch& scratch, Diagnostics& di
     const std::uint32_t drawn = SetUpBatch(job, first, count, batch, diagnostics.rungs);
     if (HWY_UNLIKELY(batch.clipped != 0)) FindClipped(job, batch, diagnostics.rungs);
     std::uint32_t done = count;
+    if (batch.small != 0) writer.Take(batch);
     for (std::uint32_t lanes = (drawn & ~batch.empty) | batch.clipped; lanes != 0; lanes &= lanes - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(lanes));
       const bool clipped = HWY_UNLIKELY((batch.clipped >> lane & 1) != 0);
       const auto before = writer.Now();
       fits = clipped ? AddClipped(job, first + lane, writer, diagnostics.rungs) : writer.Add(batch, lane, 0);
+      if (clipped) writer.Take(batch);
       if (fits) continue;
       writer.GoBack(before);
       done = lane;

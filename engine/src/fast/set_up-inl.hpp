@@ -173,7 +173,7 @@ HWY_NOINLINE void StoreDepth(const DrawJob& job, const Group& group, Batch& batc
     return hn::Sub(hn::Add(hn::PromoteTo(dd, hn::Load(di, last + lane)), hn::Set(dd, sample)), first);
   };
   const Double columns = span(batch.last_x, job.sample.x, group.px), rows = span(batch.last_y, job.sample.y, group.py);
-  Double z = hn::Zero(dd), zx = z, zy = z, edge_error = z, x_size = z, y_size = z, z_magnitude = z;
+  Double z = hn::Zero(dd), zx = z, zy = z, edge_error = z, x_size = z, y_size = z, z_magnitude = z, z_most = z;
   for (std::size_t i = 0; i < 3; ++i) {
     const Double depth_i = hn::PromoteTo(dd, hn::Load(df, batch.z[i] + lane));
     z = hn::Add(z, hn::Mul(depth_i, edges.e[i]));
@@ -183,6 +183,7 @@ HWY_NOINLINE void StoreDepth(const DrawJob& job, const Group& group, Batch& batc
     x_size = hn::Add(x_size, hn::Abs(edges.a[i]));
     y_size = hn::Add(y_size, hn::Abs(edges.b[i]));
     z_magnitude = hn::Add(z_magnitude, hn::Abs(depth_i));  // in the bounds it stands for each |Z_i|
+    z_most = hn::Max(z_most, hn::Abs(depth_i));
   }
   const Double bound = hn::Set(dd, kEdgeErrorBound);
   const Double smallest = hn::Sub(hn::Abs(group.det), group.det_error);  // |D| is at least this; else nothing is known
@@ -192,8 +193,14 @@ HWY_NOINLINE void StoreDepth(const DrawJob& job, const Group& group, Batch& batc
   // edge's error is at least `bound` times its value: twice that error bounds a product with it.
   const Double size = hn::Add(hn::Abs(z), hn::Add(hn::Mul(hn::Abs(zx), columns), hn::Mul(hn::Abs(zy), rows)));
   const Double steps = hn::Mul(bound, hn::Add(hn::Mul(x_size, columns), hn::Mul(y_size, rows)));
+  // The determinant's error counts for depth where the triangle covers: a mean of the vertices' if all are in front.
+  Double covered = size;
+  if (HWY_LIKELY(job.draw->conservative == Conservative::none && !job.draw->grid)) {
+    const Double w = hn::Min(hn::Min(group.w[0], group.w[1]), group.w[2]);
+    covered = hn::IfThenElse(hn::Gt(w, hn::Zero(dd)), hn::Min(hn::Div(z_most, w), size), size);
+  }
   const Double numerators =
-      hn::Add(hn::Mul(z_magnitude, hn::Add(hn::Add(edge_error, edge_error), steps)), hn::Mul(size, group.det_error));
+      hn::Add(hn::Mul(z_magnitude, hn::Add(hn::Add(edge_error, edge_error), steps)), hn::Mul(covered, group.det_error));
   // The first sample of a tile may lie 63 samples before the origin, on the way to which sums can be larger.
   const Double slopes = hn::Add(hn::Abs(zx), hn::Abs(zy)), way = hn::Mul(hn::Set(dd, 63.0), slopes);
   const Double evaluation = hn::Mul(hn::Set(dd, 2 * kEdgeErrorBound), hn::Add(size, way));

@@ -37,8 +37,8 @@ class Store {
   // write(open) for each tile's part of the rows [begin, end): where something was drawn, and where not.
   template <typename Write>
   void each_row(int begin, int end, const Write& write) {
-    for (int y = begin; y < end; ++y) {
-      for (int column = tiles_.begin; column < tiles_.end; ++column) {
+    for (int column = tiles_.begin; column < tiles_.end; ++column) {
+      for (int y = begin; y < end; ++y) {
         const int x = column * kTileSize;
         columns_ = static_cast<std::size_t>(std::min(kTileSize, target_.width - x));
         at_ = frame_.sample_index(x, y), offset_ = tiles_.offset(x, y);

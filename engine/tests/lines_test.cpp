@@ -68,7 +68,8 @@ TEST(Lines, AThinStripHitsEachSampleOnce) {
       if (i > 0) indices.insert(indices.end(), {i - 1, i});
     }
     std::vector<std::uint32_t> count(32 * 32);
-    Target target{.width = 32, .height = 32};
+    Target target;
+    target.width = 32, target.height = 32;
     target.count = count;
     Draw draw;
     draw.vertices = vertices, draw.indices = indices, draw.primitive = Primitive::lines;
@@ -89,7 +90,8 @@ TEST(Lines, PointsTileThePlane) {
     indices.push_back(static_cast<std::uint32_t>(i));
     vertices.push_back({static_cast<float>(2 * (i % 8)) + 0.5F, static_cast<float>(2 * (i / 8)) + 0.5F, 0, 1});
   }
-  Target target{.width = 16, .height = 16};
+  Target target;
+  target.width = 16, target.height = 16;
   target.count = count;
   Draw draw;
   draw.vertices = vertices, draw.indices = indices, draw.primitive = Primitive::points, draw.width = 2.0F;
@@ -105,7 +107,8 @@ TEST(Lines, WhatTheyMayNotHaveIsRefused) {
   const std::vector<Vertex> vertices = {{1, 1, 0, 1}, {6, 3, 0, 1}};
   const std::vector<std::uint32_t> indices = {0, 1};
   std::vector<std::uint32_t> count(64 * 4);
-  Target target{.width = 8, .height = 8};
+  Target target;
+  target.width = 8, target.height = 8;
   target.count = std::span(count).first(64);
   Draw line;
   line.vertices = vertices, line.indices = indices, line.primitive = Primitive::lines;
@@ -133,7 +136,8 @@ TEST(Lines, StatisticsTellWhatCoversNothing) {
   const std::vector<Vertex> vertices = {{1, 1, 0, 1}, {2, 2, 0, 2}, {6, 3, 0, -1}, {5, 5, 0, 0}, {NAN, 0, 0, 1}};
   const std::vector<std::uint32_t> indices = {0, 1, 2, 3, 0, 2, 0, 4};
   std::vector<std::uint32_t> count(64);
-  Target target{.width = 8, .height = 8};
+  Target target;
+  target.width = 8, target.height = 8;
   target.count = count;
   Draw draw;
   draw.vertices = vertices, draw.indices = indices, draw.primitive = Primitive::lines, draw.cull = Cull::front;

@@ -8,8 +8,9 @@ namespace surefill::zoo {
 std::span<const Specimen> specimens() {
   static const std::vector<Specimen> all = [] {
     std::vector<Specimen> joined;
-    for (const std::span<const Specimen> list : {coverage_specimens(), arithmetic_specimens(), value_specimens(),
-                                                 frame_specimens(), mode_specimens(), output_specimens()})
+    for (const std::span<const Specimen> list :
+         {coverage_specimens(), arithmetic_specimens(), value_specimens(), frame_specimens(), mode_specimens(),
+          output_specimens(), line_specimens()})
       joined.insert(joined.end(), list.begin(), list.end());
     return joined;
   }();
@@ -17,7 +18,7 @@ std::span<const Specimen> specimens() {
 }
 
 std::span<const Specimen> rival_specimens() {
-  return specimens().first(specimens().size() - output_specimens().size());
+  return specimens().first(specimens().size() - output_specimens().size() - line_specimens().size());
 }
 
 }  // namespace surefill::zoo

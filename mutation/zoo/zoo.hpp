@@ -21,10 +21,10 @@ struct Specimen {
   Status (*render)(const Target& target, Draws draws);  // as surefill::render; safe to call from several threads
 };
 
-// All of them, by theme: coverage, arithmetic, values, frames, modes.
+// All of them, by theme: coverage, arithmetic, values, frames, modes, outputs, lines.
 std::span<const Specimen> specimens();
 
-// Those whose fault shows in what version 1 of the adapter has: all but output_specimens().
+// Those whose fault shows in what version 1 of the adapter has: all but output_specimens() and line_specimens().
 std::span<const Specimen> rival_specimens();
 
 // One list a theme; specimens() joins them.
@@ -34,6 +34,7 @@ std::span<const Specimen> value_specimens();
 std::span<const Specimen> frame_specimens();
 std::span<const Specimen> mode_specimens();
 std::span<const Specimen> output_specimens();
+std::span<const Specimen> line_specimens();
 
 }  // namespace surefill::zoo
 

@@ -12,7 +12,8 @@
 namespace surefill::properties {
 
 // visit(name, scene) for three scenes of several tiles from each category, of which one has several samples a pixel, and
-// for two in the further modes: origin, sample places, layers, depth tests, bias, outputs.
+// for two in the further modes: origin, sample places, layers, depth tests, bias, outputs. And for two scenes of lines and
+// points from each of their categories.
 template <typename Visit>
 void for_each_hashed_scene(Visit&& visit) {
   for (const Category& category : categories()) {
@@ -25,6 +26,12 @@ void for_each_hashed_scene(Visit&& visit) {
     for (std::uint64_t seed = 0; seed < 2; ++seed) {
       visit(std::string("modes/") + category.name + "/" + std::to_string(seed),
             modes_scene(category, 1000 + seed, 100, 8));
+    }
+  }
+  for (const LineCategory& category : line_categories()) {
+    for (std::uint64_t seed = 0; seed < 2; ++seed) {
+      visit(std::string("lines/") + category.name + "/" + std::to_string(seed),
+            lines_scene(category, 1000 + seed, 100, 8));
     }
   }
 }

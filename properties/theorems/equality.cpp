@@ -128,6 +128,11 @@ corpus::Scene make_modes(std::uint64_t n) {
   return modes_scene(category_of_case(n), n / categories().size(), 7, 5);
 }
 
+corpus::Scene make_lines(std::uint64_t n) {
+  const std::span<const LineCategory> categories = line_categories();
+  return lines_scene(categories[n % categories.size()], n / categories.size(), 9, 6);
+}
+
 // The exact image. The last one is kept, since many renderers may be held against it in turn.
 const corpus::Image& exact_image(const corpus::Scene& scene, const corpus::Outputs& outputs) {
   struct Last {
@@ -187,6 +192,8 @@ constexpr Property kProperties[] = {
      "frames with an origin, sample places, layers, bias, further depth tests and outputs are the oracle's, bit for "
      "bit",
      true, true, 0, make_modes, decide_all},
+    {"equality-lines", "M7, I6, I7", "frames of lines and points, thin and wide, are the oracle's, bit for bit", true,
+     true, 0, make_lines, decide_all},
     {"equality-conservative", "M4", "counts of conservative draws are the oracle's", true, true, 0, make_conservative,
      decide_all},
 };

@@ -287,7 +287,7 @@ int run(int argc, char** argv) {
   add_number("--near", render_options.near_plane, 1e-38, 1e38, "Distance of the near plane (fits the mesh)");
   add_number("--far", render_options.far_plane, 1e-38, 1e38, "Distance of the far plane (fits the mesh)");
   render_command->add_option("--show", render_options.show, "depth, index, barycentrics, normals, count or wireframe")
-      ->check(CLI::IsMember({"depth", "index", "barycentrics", "normals", "count"}));
+      ->check(CLI::IsMember({"depth", "index", "barycentrics", "normals", "count", "wireframe"}));
   render_command->add_option("--cull", render_options.cull, "Which faces are left out: none, front or back")
       ->check(CLI::IsMember({"none", "front", "back"}));
   render_command->add_option("--renderer", render_options.renderer, "Who draws: engine or oracle")

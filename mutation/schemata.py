@@ -75,20 +75,21 @@ class Path:
         self.active = {}  # of each file, the lines that the compiler sees
 
 
-ALWAYS = ["arguments.cpp", "build_check.cpp", "exact/exact_draw.cpp", "exact/grid.cpp", "fragments.cpp", "reference.cpp", "statistics.cpp", "surefill.cpp",
+ALWAYS = ["arguments.cpp", "build_check.cpp", "exact/exact_draw.cpp", "exact/grid.cpp", "exact/line.cpp", "fragments.cpp", "reference.cpp", "statistics.cpp", "surefill.cpp",
           "viewport.cpp"]
 VECTOR_FILES = sorted(f"fast/{p.name}" for p in (ENGINE / "fast").glob("*-inl.hpp"))
 PATHS = {
     # What defines the engine's answers, and what the fast path falls back on.
     "reference": Path("reference", ["arguments.cpp", "exact/bounds.hpp", "exact/conservative.hpp", "exact/edge.hpp", "exact/exact.hpp",
-                                    "exact/exact_draw.cpp", "exact/exact_draw.hpp", "exact/grid.cpp", "exact/grid.hpp",
+                                    "exact/exact_draw.cpp", "exact/exact_draw.hpp", "exact/grid.cpp", "exact/grid.hpp", "exact/line.cpp",
+                                    "exact/line.hpp", "exact/point.hpp", "exact/approximation.hpp",
                                     "exact/triangle.hpp", "facts.hpp", "fragments.cpp", "fragments.hpp", "overlap.hpp", "reference.cpp", "statistics.cpp",
                                     "viewport.cpp"],
                       ALWAYS,
                       ["-DSUREFILL_REFERENCE_ONLY"]),
     # The vector code for one instruction set whose vectors do not hold a whole cell, so that each loop is one.
     "fast": Path("fast", [*VECTOR_FILES, *(f"fast/{name}" for name in ("culling.hpp", "frame.cpp", "lists.hpp", "record.hpp", "store.hpp", "team.hpp", "tile.hpp"))],
-                 [*ALWAYS, "streamed.cpp", "fast/frame.cpp", "fast/kernels.cpp"],
+                 [*ALWAYS, "lines.cpp", "streamed.cpp", "fast/frame.cpp", "fast/kernels.cpp"],
                  ["-DHWY_COMPILE_ONLY_STATIC", "-march=x86-64-v3", "-maes", "-mpclmul"]),
 }
 

@@ -27,14 +27,21 @@ namespace surefill::certify {
 
 namespace {
 
-// The plugin that is built, or installed, beside the command.
-std::filesystem::path driver_plugin(const std::string& adapter, const std::filesystem::path& self) {
+// The plugin that is built, or installed, beside the command; empty if there is none.
+std::filesystem::path plugin_beside(const std::string& adapter, const std::filesystem::path& self) {
   const std::string name = "libsurefill_" + adapter + ".so";
   std::error_code error;
   const std::filesystem::path folder = self.parent_path();
   for (const auto& found : {folder / name, folder.parent_path() / "lib" / "surefill" / name}) {
     if (std::filesystem::is_regular_file(found, error)) return found;
   }
+  return {};
+}
+
+std::filesystem::path driver_plugin(const std::string& adapter, const std::filesystem::path& self) {
+  const std::filesystem::path found = plugin_beside(adapter, self);
+  if (!found.empty()) return found;
+  const std::string name = "libsurefill_" + adapter + ".so";
   throw UsageError("--adapter " + adapter + ": " + name + " was not built; `./dev certify --adapter " + adapter +
                    "` installs what that needs");
 }
@@ -155,6 +162,19 @@ std::string RivalChoice::as_options() const {
   if (!command.empty()) text = "--command " + shell_word(command);
   if (!arguments.empty()) text += " --plugin-arguments " + shell_word(arguments);
   return text;
+}
+
+std::string version_text(const std::string& corpus) {
+  const Facts facts = build_facts();
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  std::string drivers;
+  for (const char* adapter : {"opengl", "vulkan"}) {
+    if (!plugin_beside(adapter, self).empty()) drivers += (drivers.empty() ? "" : ", ") + std::string(adapter);
+  }
+  return fmt::format("{}\ncompiler  {}, {}\nengine    {}, on {}\nadapters  {}\ncorpus    {}", version_line(),
+                     facts.compiler, facts.flags, facts.instruction_set, facts.cpu, drivers.empty() ? "none" : drivers,
+                     corpus.empty() ? "none" : corpus);
 }
 
 void add_rival_options(CLI::App& app, RivalChoice& choice) {

@@ -62,6 +62,10 @@ struct MergeOptions {
 void add_merge_options(CLI::App& app, MergeOptions& options);
 int run_merge(const MergeOptions& options);
 
+// What `surefill --version` says: version and commit in the first line; then compiler, path and processor, the drivers'
+// adapters that are there, the corpus.
+std::string version_text(const std::string& corpus);
+
 // To stdout. Throws FileError.
 void print(const std::string& text);
 

@@ -437,6 +437,9 @@ TEST_F(Command, TellsItsVersionAndUsage) {
   const Outcome version = run("--version");
   EXPECT_EQ(version.status, 0);
   EXPECT_EQ(version.out.rfind("surefill " SUREFILL_VERSION " (", 0), 0u);
+  for (const char* line : {"\ncompiler  ", "\nengine    ", "\nadapters  ", "\ncorpus    "}) {
+    EXPECT_NE(version.out.find(line), std::string::npos) << version.out;
+  }
   for (const char* arguments : {"--help", "render --help", "certify --help", "replay --help", "reduce --help"}) {
     const Outcome help = run(arguments);
     EXPECT_EQ(help.status, 0);

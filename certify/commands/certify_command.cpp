@@ -105,13 +105,14 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
   const judge::Inference& found = subject.inference.judged;
   facts.inferred_model = subject.inference.fits ? adapters::describe_model(subject.inference.model)
                          : found.known          ? judge::describe(found.model)
-                                                : "none fits";
+                         : found.shape.empty()  ? "none fits"
+                                                : "no samples that fit: " + found.shape;
   const bool section_6 = rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
   facts.model = section_6             ? adapters::describe_model(rival.info().model)
                 : subject.terms.known ? judge::describe(subject.terms.model)
                                       : "unknown";
   if (found.known) facts.departures = judge::departures(found.model);
-  if (!found.shape.empty()) facts.departures.insert(facts.departures.begin(), found.shape);
+  if (!found.shape.empty() && found.known) facts.departures.insert(facts.departures.begin(), found.shape);
   facts.open = found.open;
   facts.turns = judge::turns_text(found.turns);
   facts.problems = subject.inference.problems;
@@ -145,6 +146,31 @@ Certificate unmet(Facts facts, const adapters::Rival& rival) {
   result.case_number = facts.shard.index - 1;
   result.finding = rival.why_given_up();
   return {facts, {result}};
+}
+
+// One case, and its scene as the check has it.
+int run_case(const Settings& settings, std::span<Check> checks, std::uint64_t number, const std::string& directory) {
+  if (checks.size() != 1) throw UsageError("--case needs --only with the name of one check");
+  Check& check = checks.front();
+  const std::uint64_t cases = check.prepare();
+  if (number >= cases) {
+    throw UsageError(fmt::format("--case {}: {} has cases 0 to {}", number, check.name, cases - 1));
+  }
+  if (!check.scene_of) throw UsageError(fmt::format("--case: the cases of {} are no scenes", check.name));
+  corpus::Scene scene = check.scene_of(number);
+  const CaseResult result = check.run(number);
+  const std::string outcome = result.differences > 0 ? result.finding
+                              : result.skipped       ? "not applicable"
+                                                     : fmt::format("{} samples judged, {} open, 0 differences",
+                                                                   grouped(result.samples), grouped(result.open));
+  scene.comment = fmt::format("{} ({}): {}\nCase {} of {}, level {}, seed {}, as it is.\n{}", check.name, check.rule,
+                              check.claim, number, cases, level_name(settings.level), settings.seed, outcome);
+  const std::string path = reserve_path(directory, fmt::format("{}-case-{}", check.name, number), ".scene");
+  corpus::write_scene_file(scene, path);
+  const std::string option = check.replay_option.empty() ? "" : check.replay_option + " ";
+  print(fmt::format("{}, case {} of {}: {}\nsurefill replay {}{}\n", check.name, number, cases, outcome, option,
+                    shell_word(path)));
+  return result.differences > 0 ? kBad : kGood;
 }
 
 }  // namespace
@@ -254,6 +280,9 @@ void add_certify_options(CLI::App& app, CertifyOptions& options) {
       ->check(CLI::IsMember({"quick", "standard", "thorough"}));
   add_whole_number(app, "--seed", options.seed, 0, ~std::uint64_t{0}, "Of the sampled cases (1)");
   add_names(app, "--only", options.only, "Names of checks, with * and ?, separated by commas");
+  add_whole_number(
+      app, "--case", 0, ~std::uint64_t{0}, [&options](std::uint64_t number) { options.only_case = number; },
+      "With --only CHECK: this case alone; its scene goes to --output-dir as it is, right or wrong");
   app.add_flag("--list", options.list, "Name the checks and what they claim; run none");
   add_rival_options(app, options.rival);
   app.add_option("--json", options.json, "Write the certificate there, too, as JSON");
@@ -313,6 +342,8 @@ int run_certify(const CertifyOptions& options, const std::function<std::string()
     for (const Check& check : checks) print(fmt::format("{}: {} [{}]\n", check.name, check.claim, check.rule));
     return kGood;
   }
+
+  if (options.only_case) return run_case(settings, checks, *options.only_case, options.output_directory);
 
   Certificate earlier;
   std::error_code error;

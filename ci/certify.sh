@@ -51,7 +51,7 @@ esac
 if [ -n "${GITHUB_OUTPUT:-}" ]; then echo "verdict=$verdict" >>"$GITHUB_OUTPUT"; fi
 if [ -n "${GITHUB_STEP_SUMMARY:-}" ]; then
   {
-    printf '## Surefill: %s\n\n`%s`, level %s, %s. ' "$verdict" "${rasterizer[1]}" "${SUREFILL_LEVEL:-quick}" "$(surefill --version)"
+    printf '## Surefill: %s\n\n`%s`, level %s, %s. ' "$verdict" "${rasterizer[1]}" "${SUREFILL_LEVEL:-quick}" "$(surefill --version | head -n 1)"
     printf 'The artifact holds `report.html`, with pictures, and a reduced scene for each finding.\n\n```text\n'
     head -n 120 "$report/report.txt"
     [ $status -ne 2 ] || tail -n 20 "$report/progress.txt"

@@ -80,13 +80,17 @@ Status right(const Target& target, zoo::Draws draws) {
 }
 
 // Scenes on which it is wrong, as a run finds them: of every property the first ones, and random ones.
-std::vector<std::size_t> wrong_scenes(Pool& pool, Render render, std::size_t cases_of_property) {
+std::vector<std::size_t> wrong_scenes(Pool& pool, Render render, std::size_t cases_of_property,
+                                      std::vector<Scene>& fine) {
   constexpr std::size_t kOfProperties = 8, kAll = 24, kTries = 1200;
   std::vector<std::size_t> wrong;
   const auto look_at = [&](std::size_t n) {
     const Image &actual = pool.drawn(render, n), &expected = pool.drawn(right, n);
     if (expected.count.empty() || actual.count.empty()) return false;
-    if (properties::compare(pool.scene(n), expected, actual, 1).differences == 0) return false;
+    if (properties::compare(pool.scene(n), expected, actual, 1).differences == 0) {
+      if (fine.size() < kAll) fine.push_back(pool.scene(n));
+      return false;
+    }
     wrong.push_back(n);
     return true;
   };
@@ -95,15 +99,16 @@ std::vector<std::size_t> wrong_scenes(Pool& pool, Render render, std::size_t cas
       if (look_at(pool.of(property, n))) break;
     }
   }
-  for (std::size_t n = 0; n < kTries && wrong.size() < kAll; ++n) look_at(pool.random(n));
+  fine.clear();  // of random ones alone
+  for (std::size_t n = 0; n < kTries && (wrong.size() < kAll || n < 2 * kAll); ++n) look_at(pool.random(n));
   return wrong;
 }
 
-std::vector<judge::Wrong> shown_wrong(Pool& pool, Render render) {
+std::vector<judge::Wrong> shown_wrong(Pool& pool, Render render, std::vector<Scene>& fine) {
   std::vector<std::size_t> found;
   // What is seen rarely is looked for longer.
   for (const std::size_t cases : {10u, 300u}) {
-    found = wrong_scenes(pool, render, cases);
+    found = wrong_scenes(pool, render, cases, fine);
     if (!found.empty()) break;
   }
   std::vector<judge::Wrong> wrong;
@@ -140,18 +145,31 @@ std::vector<std::string> called(Pool& pool, Render render) {
       if (std::find(model.begin(), model.end(), sentence) == model.end()) model.push_back(sentence);
     }
   }
-  // Rounding on the way comes of what else it does.
-  if (model.size() > 1)
-    std::erase_if(model, [](const std::string& s) { return s.starts_with("positions are blurred"); });
+  // Rounding on the way, and that no rule was found, come of what else it does: they are said last.
+  const auto vague = [](const std::string& s) {
+    return s.starts_with("positions are blurred") || s.starts_with("who owns");
+  };
+  std::vector<std::string> last;
+  std::copy_if(model.begin(), model.end(), std::back_inserter(last), vague);
+  std::erase_if(model, vague);
   if (!model.empty()) sentences.push_back(fmt::format("{}", fmt::join(model, "; ")));
-  const std::vector<judge::Wrong> wrong = shown_wrong(pool, render);
+  std::vector<Scene> fine;
+  const std::vector<judge::Wrong> wrong = shown_wrong(pool, render, fine);
   const auto still_wrong = [render](const Scene& scene) {
     return properties::compare(scene, right, render, properties::outputs_of(scene), 1).differences > 0;
   };
-  for (const std::string& sentence :
-       certify::sentences_of(judge::name_fault(certify::known_faults(), wrong, false), wrong, still_wrong)) {
-    sentences.push_back(sentence);
-  }
+  const auto both = [render](const Scene& scene) -> std::optional<judge::Wrong> {
+    corpus::Frame expected(scene, properties::outputs_of(scene)), actual(scene, properties::outputs_of(scene));
+    if (right(expected.target(), expected.draws()) != Status::ok) return std::nullopt;
+    if (render(actual.target(), actual.draws()) != Status::ok) return std::nullopt;
+    return judge::Wrong{scene, std::move(expected.image()), std::move(actual.image())};
+  };
+  const std::vector<judge::Name> names = judge::name_fault(certify::known_faults(), wrong, false);
+  const std::vector<std::string> likely = certify::sentences_of(names, wrong, fine, {still_wrong, both});
+  // A fault that draws all of it is said before what probing finds.
+  const bool sure = wrong.size() >= 8 && !names.empty() && names.front().agreement >= 0.98;
+  sentences.insert(sure ? sentences.begin() : sentences.end(), likely.begin(), likely.end());
+  if (!last.empty()) sentences.push_back(fmt::format("{}", fmt::join(last, "; ")));
   // That no model explains it is no name.
   sentences.insert(sentences.end(), found.problems.begin(), found.problems.end());
   return sentences;
@@ -193,7 +211,8 @@ bool zoo_names(const std::function<void(const std::string&)>& print) {
   print(fmt::format("{} of {} further faults are called what they are\n", further_named, further_done));
   for (const zoo::Specimen& specimen : zoo::rival_specimens()) {
     if (certify::interrupted()) return false;
-    const std::vector<judge::Wrong> wrong = shown_wrong(pool, specimen.render);
+    std::vector<Scene> fine;
+    const std::vector<judge::Wrong> wrong = shown_wrong(pool, specimen.render, fine);
     const std::vector<judge::Name> names = judge::name_fault(certify::known_faults(), wrong, false);
     // Faults that explain it as well are one with it as far as anybody can tell.
     const bool good = std::any_of(names.begin(), names.end(), [&](const judge::Name& name) {

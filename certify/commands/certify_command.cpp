@@ -27,14 +27,21 @@ namespace surefill::certify {
 
 namespace {
 
-// The plugin that is built, or installed, beside the command.
-std::filesystem::path driver_plugin(const std::string& adapter, const std::filesystem::path& self) {
+// The plugin that is built, or installed, beside the command; empty if there is none.
+std::filesystem::path plugin_beside(const std::string& adapter, const std::filesystem::path& self) {
   const std::string name = "libsurefill_" + adapter + ".so";
   std::error_code error;
   const std::filesystem::path folder = self.parent_path();
   for (const auto& found : {folder / name, folder.parent_path() / "lib" / "surefill" / name}) {
     if (std::filesystem::is_regular_file(found, error)) return found;
   }
+  return {};
+}
+
+std::filesystem::path driver_plugin(const std::string& adapter, const std::filesystem::path& self) {
+  const std::filesystem::path found = plugin_beside(adapter, self);
+  if (!found.empty()) return found;
+  const std::string name = "libsurefill_" + adapter + ".so";
   throw UsageError("--adapter " + adapter + ": " + name + " was not built; `./dev certify --adapter " + adapter +
                    "` installs what that needs");
 }
@@ -98,13 +105,14 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
   const judge::Inference& found = subject.inference.judged;
   facts.inferred_model = subject.inference.fits ? adapters::describe_model(subject.inference.model)
                          : found.known          ? judge::describe(found.model)
-                                                : "none fits";
+                         : found.shape.empty()  ? "none fits"
+                                                : "no samples that fit: " + found.shape;
   const bool section_6 = rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
   facts.model = section_6             ? adapters::describe_model(rival.info().model)
                 : subject.terms.known ? judge::describe(subject.terms.model)
                                       : "unknown";
   if (found.known) facts.departures = judge::departures(found.model);
-  if (!found.shape.empty()) facts.departures.insert(facts.departures.begin(), found.shape);
+  if (!found.shape.empty() && found.known) facts.departures.insert(facts.departures.begin(), found.shape);
   facts.open = found.open;
   facts.turns = judge::turns_text(found.turns);
   facts.problems = subject.inference.problems;
@@ -140,6 +148,31 @@ Certificate unmet(Facts facts, const adapters::Rival& rival) {
   return {facts, {result}};
 }
 
+// One case, and its scene as the check has it.
+int run_case(const Settings& settings, std::span<Check> checks, std::uint64_t number, const std::string& directory) {
+  if (checks.size() != 1) throw UsageError("--case needs --only with the name of one check");
+  Check& check = checks.front();
+  const std::uint64_t cases = check.prepare();
+  if (number >= cases) {
+    throw UsageError(fmt::format("--case {}: {} has cases 0 to {}", number, check.name, cases - 1));
+  }
+  if (!check.scene_of) throw UsageError(fmt::format("--case: the cases of {} are no scenes", check.name));
+  corpus::Scene scene = check.scene_of(number);
+  const CaseResult result = check.run(number);
+  const std::string outcome = result.differences > 0 ? result.finding
+                              : result.skipped       ? "not applicable"
+                                                     : fmt::format("{} samples judged, {} open, 0 differences",
+                                                                   grouped(result.samples), grouped(result.open));
+  scene.comment = fmt::format("{} ({}): {}\nCase {} of {}, level {}, seed {}, as it is.\n{}", check.name, check.rule,
+                              check.claim, number, cases, level_name(settings.level), settings.seed, outcome);
+  const std::string path = reserve_path(directory, fmt::format("{}-case-{}", check.name, number), ".scene");
+  corpus::write_scene_file(scene, path);
+  const std::string option = check.replay_option.empty() ? "" : check.replay_option + " ";
+  print(fmt::format("{}, case {} of {}: {}\nsurefill replay {}{}\n", check.name, number, cases, outcome, option,
+                    shell_word(path)));
+  return result.differences > 0 ? kBad : kGood;
+}
+
 }  // namespace
 
 void print(const std::string& text) {
@@ -155,6 +188,19 @@ std::string RivalChoice::as_options() const {
   if (!command.empty()) text = "--command " + shell_word(command);
   if (!arguments.empty()) text += " --plugin-arguments " + shell_word(arguments);
   return text;
+}
+
+std::string version_text(const std::string& corpus) {
+  const Facts facts = build_facts();
+  std::error_code error;
+  const std::filesystem::path self = std::filesystem::read_symlink("/proc/self/exe", error);
+  std::string drivers;
+  for (const char* adapter : {"opengl", "vulkan"}) {
+    if (!plugin_beside(adapter, self).empty()) drivers += (drivers.empty() ? "" : ", ") + std::string(adapter);
+  }
+  return fmt::format("{}\ncompiler  {}, {}\nengine    {}, on {}\nadapters  {}\ncorpus    {}", version_line(),
+                     facts.compiler, facts.flags, facts.instruction_set, facts.cpu, drivers.empty() ? "none" : drivers,
+                     corpus.empty() ? "none" : corpus);
 }
 
 void add_rival_options(CLI::App& app, RivalChoice& choice) {
@@ -234,6 +280,9 @@ void add_certify_options(CLI::App& app, CertifyOptions& options) {
       ->check(CLI::IsMember({"quick", "standard", "thorough"}));
   add_whole_number(app, "--seed", options.seed, 0, ~std::uint64_t{0}, "Of the sampled cases (1)");
   add_names(app, "--only", options.only, "Names of checks, with * and ?, separated by commas");
+  add_whole_number(
+      app, "--case", 0, ~std::uint64_t{0}, [&options](std::uint64_t number) { options.only_case = number; },
+      "With --only CHECK: this case alone; its scene goes to --output-dir as it is, right or wrong");
   app.add_flag("--list", options.list, "Name the checks and what they claim; run none");
   add_rival_options(app, options.rival);
   app.add_option("--json", options.json, "Write the certificate there, too, as JSON");
@@ -293,6 +342,8 @@ int run_certify(const CertifyOptions& options, const std::function<std::string()
     for (const Check& check : checks) print(fmt::format("{}: {} [{}]\n", check.name, check.claim, check.rule));
     return kGood;
   }
+
+  if (options.only_case) return run_case(settings, checks, *options.only_case, options.output_directory);
 
   Certificate earlier;
   std::error_code error;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -47,6 +48,7 @@ struct CertifyOptions {
   std::uint64_t seed = 1;
   int jobs = 1;
   bool list = false;
+  std::optional<std::uint64_t> only_case;  // of the one check that is named
   RivalChoice rival;
 };
 void add_certify_options(CLI::App& app, CertifyOptions& options);
@@ -61,6 +63,10 @@ struct MergeOptions {
 };
 void add_merge_options(CLI::App& app, MergeOptions& options);
 int run_merge(const MergeOptions& options);
+
+// What `surefill --version` says: version and commit in the first line; then compiler, path and processor, the drivers'
+// adapters that are there, the corpus.
+std::string version_text(const std::string& corpus);
 
 // To stdout. Throws FileError.
 void print(const std::string& text);

@@ -261,7 +261,7 @@ std::string one_line(std::string text) {
 
 int run(int argc, char** argv) {
   CLI::App app("An exact triangle rasterizer, and the suite that proves it.", "surefill");
-  app.set_version_flag("--version", version_line());
+  app.set_version_flag("--version", [] { return version_text(corpus::corpus_folder(SUREFILL_CORPUS)); });
   app.require_subcommand(0, 1);
   app.get_formatter()->column_width(34);
 

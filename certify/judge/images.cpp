@@ -108,8 +108,10 @@ Range depth_range(const Model& model, const Frame& frame, const Triangle& triang
     w[i] = triangle.vertices[i].w;
     largest = std::max(largest, std::abs(z[i] / w[i]));
   }
-  const Values values = values_around(edges, z, w, at.x, at.y, distance_of(model, frame));
+  const std::array<double, 2> distance = distance_of(model, frame);
+  const Values values = values_around(edges, z, w, at.x, at.y, distance);
   if (value) *value = values.value;
+  largest = std::max(largest, terms_around(edges, z, w, at.x, at.y, distance));
   const double more = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126 + format_step(model);
   return {values.range.low - more, values.range.high + more};
 }
@@ -234,8 +236,10 @@ class Look {
     const auto look = [&](const std::string& name, Deviation& deviation, const std::array<double, 3>& above,
                           const std::array<double, 3>& below, double largest, float actual) {
       if (!std::isfinite(largest)) return;
-      const Values values = values_around(edges, above, below, at.x, at.y, distance_of(model, frame_));
-      const double more = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126;
+      const std::array<double, 2> distance = distance_of(model, frame_);
+      const Values values = values_around(edges, above, below, at.x, at.y, distance);
+      const double terms = std::max(largest, terms_around(edges, above, below, at.x, at.y, distance));
+      const double more = kGrantedRoundings * 0x1p-24 * terms + 0x1p-126;
       note(name, deviation, s, values.value, {values.range.low - more, values.range.high + more}, actual);
     };
     for (std::size_t i = 0; i < 3 && !image_.barycentrics.empty(); ++i) {
@@ -342,7 +346,9 @@ class Look {
     const Place at = place_of(model, frame_, s);
     const std::array<double, 2> distance = distance_of(model, frame_);
     Range range = values_around(edges, corners.above, corners.below, at.x, at.y, distance).range;
-    double more = kGrantedRoundings * 0x1p-24 * terms_around(edges, corners, at, distance) + 0x1p-126;
+    double more =
+        kGrantedRoundings * 0x1p-24 * terms_around(edges, corners.above, corners.below, at.x, at.y, distance) +
+        0x1p-126;
     const bool front =
         std::all_of(triangle.vertices.begin(), triangle.vertices.end(), [](const Vertex& v) { return v.w > 0; });
     if (front) {
@@ -390,24 +396,6 @@ class Look {
     if (actual >= granted.low && actual <= granted.high) return;
     differs(name, s, number(static_cast<float>(granted.low)) + " to " + number(static_cast<float>(granted.high)),
             number(actual), known);
-  }
-
-  // The largest sum of what is added up for a value, around the sample, signs aside.
-  static double terms_around(const Edges& edges, const Corners& corners, const Place& at,
-                             const std::array<double, 2>& distance) {
-    double largest = 0;
-    for (const double dx : {-distance[0], 0.0, distance[0]}) {
-      for (const double dy : {-distance[1], 0.0, distance[1]}) {
-        long double sum = 0, denominator = 0;
-        for (std::size_t i = 0; i < 3; ++i) {
-          const long double e = edges.at(i, at.x + dx, at.y + dy);
-          sum += std::abs(corners.above[i] * e);
-          denominator += corners.below[i] * e;
-        }
-        if (denominator != 0) largest = std::max(largest, static_cast<double>(sum / std::abs(denominator)));
-      }
-    }
-    return largest;
   }
 
   // Notes the error of one value, in ULP of the largest number that is granted (next to 0 its own ULP says nothing of

@@ -324,6 +324,60 @@ void settle(const Expected& expected, const std::vector<Probe>& probes, Inferenc
   }
 }
 
+// Does the triangle meet the pixel's square, grown by `more` on each side?
+bool meets(const FlatTriangle& t, int px, int py, double more) {
+  const double x0 = px - more, y0 = py - more, x1 = px + 1 + more, y1 = py + 1 + more;
+  const auto apart = [&](double a, double b) {
+    double low = INFINITY, high = -INFINITY;
+    for (const Point& p : t) low = std::min(low, a * p.x + b * p.y), high = std::max(high, a * p.x + b * p.y);
+    const double near = std::min(a * x0, a * x1) + std::min(b * y0, b * y1);
+    const double far = std::max(a * x0, a * x1) + std::max(b * y0, b * y1);
+    return high < near || low > far;
+  };
+  bool separated = apart(1, 0) || apart(0, 1);
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point &p = t[i], &q = t[(i + 1) % 3];
+    separated = separated || apart(double{q.y} - p.y, double{p.x} - q.x);
+  }
+  return !separated;
+}
+
+// A few slanted triangles: are the pixels that they touch covered, and no others? Some 1/32 pixel around is let be.
+std::string shape_of(Rival& rival, const Inference& found) {
+  constexpr int kSize = 24, kTriangles = 12;
+  constexpr double kHair = 1.0 / 32;
+  if (turns_shape(found.turns, true) == turns_shape(found.turns, false)) return turns_shape(found.turns, true);
+  Random random(0x70C4);
+  int wrong = 0, all = 0;
+  for (int n = 0; n < kTriangles; ++n) {
+    FlatTriangle triangle{};
+    for (Point& p : triangle) {
+      p = {on_step(2 + 20 * random.unit(), rival.position_step()),
+           on_step(2 + 20 * random.unit(), rival.position_step())};
+    }
+    const corpus::Scene scene = flat_scene(kSize, kSize, {seen(triangle, found.model.culled)});
+    const corpus::Image image = rival.draw(scene, covering(rival));
+    for (int y = 0; y < kSize; ++y) {
+      for (int x = 0; x < kSize; ++x) {
+        const bool inside = meets(triangle, x, y, -kHair), outside = !meets(triangle, x, y, kHair);
+        if (!inside && !outside) continue;
+        const bool covered = is_covered(image, static_cast<std::size_t>(y * kSize + x));
+        all += inside || covered;
+        wrong += covered != inside;
+      }
+    }
+  }
+  return turns_shape(found.turns, 50 * wrong <= all);
+}
+
+std::string tried_shape(Rival& rival, const Inference& found) {
+  try {
+    return shape_of(rival, found);
+  } catch (const Declined&) {
+    return turns_shape(found.turns, false);
+  }
+}
+
 // No model is known: what holds under each is owed (R13), through a viewport of this size, and the facts stand.
 void give_up(const Expected& expected, const std::vector<Probe>& probes, const std::string& why, const AxisFit& x,
              const AxisFit& y, Inference& result) {
@@ -370,7 +424,7 @@ Inference infer(Rival& rival, const Expected& expected, const std::optional<Mode
     result.open.push_back(std::string("where edges turn: ") + reason.what());
     return result;
   }
-  if (x.bits < 0 || y.bits < 0 || !x.why.empty() || !y.why.empty()) result.shape = turns_shape(result.turns);
+  if (x.bits < 0 || y.bits < 0 || !x.why.empty() || !y.why.empty()) result.shape = tried_shape(rival, result);
   if (!x.why.empty() || !y.why.empty()) {
     const std::string problem = turns_problem(result.turns);
     if (!problem.empty()) result.problems.push_back(problem);
@@ -380,7 +434,7 @@ Inference infer(Rival& rival, const Expected& expected, const std::optional<Mode
   try {
     const Region region = find_places(rival, facts.culled, x, y, probes);
     if (region.empty()) {
-      result.shape = turns_shape(result.turns);
+      result.shape = tried_shape(rival, result);
       give_up(expected, probes, "no place explains slanted edges", x, y, result);
       return result;
     }
@@ -424,7 +478,7 @@ Inference infer(Rival& rival, const Expected& expected, const std::optional<Mode
   }
   draw_trials(rival, result, probes);
   settle(expected, probes, result);
-  if (!result.known) result.shape = turns_shape(result.turns);
+  if (!result.known) result.shape = tried_shape(rival, result);
   if (!result.known) give_up(expected, probes, "what was found does not explain other triangles", x, y, result);
   return result;
 }

@@ -159,18 +159,20 @@ void infer_small(Rival& rival, Inference& result) {
                          covers_any(rival, model, {at(1), at(-1), at(-1)});
     }
   }
-  const int finest = std::min({12, model.x.bits < 0 ? 12 : model.x.bits, model.y.bits < 0 ? 12 : model.y.bits});
+  // Smaller and smaller, down to a step of each axis's grid.
+  const int most_x = model.x.bits < 0 ? 12 : std::min(model.x.bits, 12);
+  const int most_y = model.y.bits < 0 ? 12 : std::min(model.y.bits, 12);
   double drawn = 0;
-  for (int k = 1; k <= finest; ++k) {
-    const double s = std::ldexp(1.0, -k);
-    if (s < 8 * std::max(model.x.blur, model.y.blur)) return;
-    std::array<std::array<double, 2>, 3> t{{{-s, -s}, {2 * s, -s}, {-s, 2 * s}}};
+  for (int k = 1; k <= std::max(most_x, most_y); ++k) {
+    const double sx = std::ldexp(1.0, -std::min(k, most_x)), sy = std::ldexp(1.0, -std::min(k, most_y));
+    if (sx < 8 * model.x.blur || sy < 8 * model.y.blur) return;
+    std::array<std::array<double, 2>, 3> t{{{-sx, -sy}, {2 * sx, -sy}, {-sx, 2 * sy}}};
     if (model.culled == Cull::front) std::swap(t[1], t[2]);
     if (!covers_middle(rival, model, t)) {
       model.least_area = 1.1 * drawn;
       return;
     }
-    drawn = 4.5 * s * s;
+    drawn = 4.5 * sx * sy;
   }
 }
 

@@ -52,6 +52,25 @@ inline Values values_around(const Edges& edges, const std::array<double, 3>& abo
   return result;
 }
 
+// The largest sum of what is added up for a value, signs aside, at the sample and so far from it: beside a triangle a value
+// is a difference of large numbers, and rounded as such.
+inline double terms_around(const Edges& edges, const std::array<double, 3>& above, const std::array<double, 3>& below,
+                           double x, double y, const std::array<double, 2>& distance) {
+  double largest = 0;
+  for (const double dx : {-distance[0], 0.0, distance[0]}) {
+    for (const double dy : {-distance[1], 0.0, distance[1]}) {
+      long double sum = 0, denominator = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const long double e = edges.at(i, x + dx, y + dy);
+        sum += std::abs(above[i] * e);
+        denominator += below[i] * e;
+      }
+      if (denominator != 0) largest = std::max(largest, static_cast<double>(sum / std::abs(denominator)));
+    }
+  }
+  return largest;
+}
+
 }  // namespace surefill::judge
 
 #endif  // SUREFILL_CERTIFY_JUDGE_PLANE_HPP

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 namespace surefill::judge {
 
@@ -92,6 +93,25 @@ void add_counts(std::span<const Wrong> wrong, std::vector<std::string>& sentence
     });
     if (most(static_cast<std::size_t>(good), with_counts)) sentences.emplace_back(move.text);
   }
+  const auto counts = [&](const char* sentence, const auto& follows) {
+    if (following(wrong, &Image::count, follows).all()) sentences.emplace_back(sentence);
+  };
+  std::uint64_t drawn = 0;
+  for (const Wrong& shown : wrong) drawn = std::accumulate(shown.rival.count.begin(), shown.rival.count.end(), drawn);
+  if (drawn == 0) {
+    counts("nothing is drawn at all", [](std::uint32_t, std::uint32_t got) { return got == 0; });
+    return;
+  }
+  counts("every count is twice what it should be", [](std::uint32_t n, std::uint32_t got) { return got == 2 * n; });
+  counts("every count is 1 too large", [](std::uint32_t n, std::uint32_t got) { return got == n + 1; });
+  counts("every count is 1 too large where anything is drawn",
+         [](std::uint32_t n, std::uint32_t got) { return got == (n == 0 ? 0 : n + 1); });
+  for (const std::uint32_t bits : {1u, 2u, 4u, 8u, 16u}) {
+    const auto wraps = [bits](std::uint32_t n, std::uint32_t got) { return got == (n & ((1u << bits) - 1)); };
+    if (!following(wrong, &Image::count, wraps).all()) continue;
+    sentences.push_back("counts overflow: they have " + std::to_string(bits) + " bits");
+    break;
+  }
   std::uint32_t largest = 0, larger = 0;
   for (const Wrong& shown : wrong) {
     for (const std::uint32_t n : shown.rival.count) largest = std::max(largest, n);
@@ -103,6 +123,8 @@ void add_counts(std::span<const Wrong> wrong, std::vector<std::string>& sentence
   }
 }
 
+void add_odd_index(std::span<const Wrong> wrong, std::vector<std::string>& sentences);
+
 void add_index(std::span<const Wrong> wrong, std::vector<std::string>& sentences) {
   for (const int more : {1, -1}) {
     const auto moved = [more](std::uint32_t right, std::uint32_t got) {
@@ -110,8 +132,43 @@ void add_index(std::span<const Wrong> wrong, std::vector<std::string>& sentences
     };
     if (following(wrong, &Image::index, moved).all()) {
       sentences.push_back(std::string("every index is 1 too ") + (more > 0 ? "large" : "small"));
+      return;
     }
   }
+  add_odd_index(wrong, sentences);
+}
+
+// Of indices of a few bits, and those that count from the other end.
+void add_odd_index(std::span<const Wrong> wrong, std::vector<std::string>& sentences) {
+  for (const std::uint32_t bits : {2u, 4u, 8u, 16u}) {
+    const auto wraps = [bits](std::uint32_t n, std::uint32_t got) {
+      return got == n || (n != kNoTriangle && got == (n & ((1u << bits) - 1)));
+    };
+    if (!following(wrong, &Image::index, wraps).all()) continue;
+    sentences.push_back("indices have " + std::to_string(bits) + " bits: larger ones overflow");
+    return;
+  }
+  const auto zero = [](std::uint32_t n, std::uint32_t got) { return n == kNoTriangle ? got == n : got == 0; };
+  if (following(wrong, &Image::index, zero).all()) sentences.emplace_back("every index is 0");
+  const auto empty = [](std::uint32_t n, std::uint32_t got) { return n == kNoTriangle ? got == 0 : got == n; };
+  if (following(wrong, &Image::index, empty).all()) {
+    sentences.emplace_back("where nothing is drawn the index is 0, which is a triangle's");
+  }
+  std::size_t scenes = 0, follow = 0;
+  for (const Wrong& shown : wrong) {
+    const auto &right = shown.right.index, &rival = shown.rival.index;
+    if (right.empty() || right.size() != rival.size() || right == rival) continue;
+    std::size_t triangles = 0;
+    for (const SceneDraw& draw : shown.scene.draws) triangles += draw.triangles.size();
+    bool good = true;
+    for (std::size_t s = 0; s < right.size(); ++s) {
+      good = good &&
+             rival[s] == (right[s] == kNoTriangle ? right[s] : static_cast<std::uint32_t>(triangles) - 1 - right[s]);
+    }
+    ++scenes;
+    follow += good;
+  }
+  if (most(follow, scenes)) sentences.emplace_back("indices count from the last triangle, not from the first");
 }
 
 std::string text(const char* form, double a, double b = 0) {
@@ -182,6 +239,62 @@ void add_barycentrics(std::span<const Wrong> wrong, std::vector<std::string>& se
   }
 }
 
+// Attributes, all components of all of them.
+void add_attributes(std::span<const Wrong> wrong, std::vector<std::string>& sentences) {
+  const auto follow = [&wrong](const auto& follows) {
+    std::size_t scenes = 0, good = 0;
+    for (const Wrong& shown : wrong) {
+      bool differs = false, all = true;
+      for (std::size_t k = 0; k < std::min(shown.right.attributes.size(), shown.rival.attributes.size()); ++k) {
+        const auto &right = shown.right.attributes[k], &rival = shown.rival.attributes[k];
+        if (right.size() != rival.size()) continue;
+        for (std::size_t i = 0; i < right.size() && all; ++i) {
+          differs = differs || !same(right[i], rival[i]);
+          all = follows(right[i], rival[i]);
+        }
+      }
+      scenes += differs || !all;
+      good += differs && all;
+    }
+    return most(good, scenes);
+  };
+  const auto steps = [](double n) {
+    return [n](float right, float got) {
+      return std::abs(got - right) <= 1 / n + 1e-6 * std::abs(right) &&
+             std::abs(got * n - std::nearbyint(got * n)) < 1e-3;
+    };
+  };
+  if (follow([](float, float got) { return got == 0; })) {
+    sentences.emplace_back("attributes are 0");
+  } else if (follow([](float a, float got) { return got == std::clamp(a, 0.0f, 1.0f); })) {
+    sentences.emplace_back("attributes are clamped to 0 to 1");
+  } else if (follow([](float a, float got) { return got == std::clamp(a, -1.0f, 1.0f); })) {
+    sentences.emplace_back("attributes are clamped to -1 to 1");
+  } else if (follow([](float a, float got) { return got == std::max(a, 0.0f); })) {
+    sentences.emplace_back("negative attributes become 0");
+  } else if (follow([](float a, float got) { return got == std::abs(a); })) {
+    sentences.emplace_back("attributes lose their sign");
+  } else if (follow([](float a, float got) { return got == std::trunc(a) || got == std::nearbyint(a); })) {
+    sentences.emplace_back("attributes are rounded to whole numbers");
+  } else if (follow(steps(255)) ||
+             follow([&steps](float a, float got) { return steps(255)(std::clamp(a, 0.0f, 1.0f), got); })) {
+    sentences.emplace_back("attributes come in steps of 8 bits");
+  } else {
+    for (const int bits : {8, 11, 16}) {
+      const double part = std::ldexp(1.0, -bits);
+      bool rounded = follow([part](float a, float got) { return std::abs(got - a) <= part * std::abs(a) + 1e-30; }) &&
+                     follow([bits](float, float got) {
+                       int exponent = 0;
+                       const float mantissa = std::ldexp(std::frexp(got, &exponent), bits);
+                       return mantissa == std::nearbyint(mantissa);
+                     });
+      if (!rounded) continue;
+      sentences.push_back("attributes have " + std::to_string(bits) + " bits: they are rounded to a smaller format");
+      return;
+    }
+  }
+}
+
 // --- where it is
 
 std::vector<std::array<int, 2>> wrong_pixels(const Wrong& shown) {
@@ -211,6 +324,11 @@ void add_places(std::span<const Wrong> wrong, std::vector<std::string>& sentence
                                {"in the first %s of every four", [](int at, int) { return at % 4 == 0; }},
                                {"in the last %s of every eight", [](int at, int) { return at % 8 == 7; }},
                                {"in the first %s of every eight", [](int at, int) { return at % 8 == 0; }},
+                               {"in the last %s of every sixteen", [](int at, int) { return at % 16 == 15; }},
+                               {"in the first %s of every sixteen", [](int at, int) { return at % 16 == 0; }},
+                               {"beyond the first 64 %ss of the target", [](int at, int) { return at >= 64; }},
+                               {"beyond the first 32 %ss of the target", [](int at, int) { return at >= 32; }},
+                               {"beyond the first 16 %ss of the target", [](int at, int) { return at >= 16; }},
                                {"beyond the first 8 %ss of the target", [](int at, int) { return at >= 8; }}};
   for (const std::size_t axis : {1u, 0u}) {
     // The narrowest place that holds all is said.
@@ -411,15 +529,22 @@ void add_outputs(std::span<const Wrong> wrong, std::vector<std::string>& sentenc
 
 }  // namespace
 
-std::vector<std::string> symptoms(std::span<const Wrong> wrong, const std::function<bool(const Scene&)>& still_wrong) {
+std::vector<std::string> symptoms(std::span<const Wrong> wrong, std::span<const Scene> fine, const Trials& trials) {
   std::vector<std::string> sentences;
   if (wrong.size() < kLeastScenes) return sentences;
   add_counts(wrong, sentences);
   add_index(wrong, sentences);
   add_depth(wrong, sentences);
   add_barycentrics(wrong, sentences);
+  add_attributes(wrong, sentences);
+  const auto add = [&sentences](const std::string& sentence) {
+    if (!sentence.empty()) sentences.push_back(sentence);
+  };
   if (sentences.empty()) add_places(wrong, sentences);
-  if (sentences.empty()) add_needs(wrong, still_wrong, sentences);
+  if (sentences.empty()) add_needs(wrong, trials.still_wrong, sentences);
+  if (sentences.empty()) add(which_triangles(wrong, fine, trials));
+  if (sentences.empty()) add(how_near_edges(wrong));
+  if (sentences.empty()) add(which_scenes(wrong, fine));
   add_outputs(wrong, sentences);
   return sentences;
 }

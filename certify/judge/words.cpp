@@ -237,12 +237,17 @@ std::string turns_problem(const std::vector<Turn>& turns) {
   return "";
 }
 
-std::string turns_shape(const std::vector<Turn>& turns) {
+std::string turns_shape(const std::vector<Turn>& turns, bool touching) {
+  constexpr const char* kTouching =
+      "it covers every pixel that a triangle touches, not those whose sample lies inside: neighbours overlap";
+  constexpr const char* kOutlined =
+      "edges reach half a pixel further out than they are, on every side, as if the outline were drawn as well as the "
+      "inside: neighbours overlap";
   std::array<double, 2> reach{};
   for (const int axis : {0, 1}) {
     std::array<double, 2> low{INFINITY, INFINITY}, high{-INFINITY, -INFINITY};
     for (const Turn& t : turns) {
-      if (t.axis != axis || !t.found) continue;
+      if (t.axis != axis || !t.found || t.pixel == 0) continue;  // at the border much is otherwise
       const std::size_t side = t.far ? 1 : 0;
       low[side] = std::min(low[side], t.at());
       high[side] = std::max(high[side], t.at());
@@ -252,9 +257,7 @@ std::string turns_shape(const std::vector<Turn>& turns) {
   }
   if (std::abs(reach[0] - reach[1]) > 1.0 / 64 || std::abs(reach[0]) < 1.0 / 512) return "";
   const double beyond = (reach[0] + reach[1]) / 2;
-  if (std::abs(beyond - 0.5) < 1.0 / 64) {
-    return "it covers every pixel that a triangle touches, not those whose sample lies inside: neighbours overlap";
-  }
+  if (std::abs(beyond - 0.5) < 1.0 / 64) return touching ? kTouching : kOutlined;
   if (std::abs(beyond + 0.5) < 1.0 / 64) {
     return "it covers only pixels that lie inside a triangle whole, not all whose sample does: neighbours gape";
   }

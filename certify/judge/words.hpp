@@ -24,9 +24,10 @@ std::vector<std::string> differences(const Model& from, const Model& to);
 // What the turns show that no rasterizer may do; empty if there is nothing.
 std::string turns_problem(const std::vector<Turn>& turns);
 
+// `touching`: slanted triangles cover each pixel that they touch, and no other.
 // Where near and far edges turn at different places on every side: "it covers every pixel that a triangle touches", "edges
 // reach 1/64 pixel further than they are". Else empty.
-std::string turns_shape(const std::vector<Turn>& turns);
+std::string turns_shape(const std::vector<Turn>& turns, bool touching);
 
 }  // namespace surefill::judge
 

@@ -234,7 +234,8 @@ std::string verdict_block(std::span<const CheckResult> results, const Facts& fac
     for (const std::string& problem : facts.problems) block += fmt::format("            {}\n", problem);
     for (const std::string& sentence : facts.departures) block += fmt::format("  note      {}\n", sentence);
     for (const std::string& what : facts.open) block += fmt::format("  unknown   {}\n", what);
-    if (!facts.departures.empty() || !facts.problems.empty()) {
+    const bool none_fits = facts.inferred_model.starts_with("no");  // "none fits", "no samples that fit"
+    if (none_fits || !facts.departures.empty() || !facts.problems.empty()) {
       std::istringstream turns(facts.turns);
       for (std::string line; std::getline(turns, line);) block += fmt::format("  turns     {}\n", line);
     }

@@ -78,6 +78,30 @@ std::pair<std::string, std::string> values_in(const std::string& finding) {
   return {finding.substr(expected + 11, got - expected - 11), finding.substr(got + 6)};
 }
 
+// "0x1.8p-1 (0.75)" as people read it, or a range of such.
+std::string readable(const std::string& value) {
+  std::string result;
+  for (std::size_t begin = 0; begin < value.size();) {
+    const std::size_t open = value.find(" (", begin), close = value.find(')', begin);
+    if (open == std::string::npos || close == std::string::npos) return value;
+    if (!result.empty()) result += " to ";
+    result += value.substr(open + 2, close - open - 2);
+    begin = close + 1;
+  }
+  return result;
+}
+
+// The value that a finding speaks of, at its pixel.
+Label label_of(const std::string& finding, const std::string& value) {
+  Label label;
+  const std::size_t at = finding.find(" at pixel (");
+  if (at == std::string::npos || std::sscanf(finding.c_str() + at, " at pixel (%d, %d)", &label.x, &label.y) != 2) {
+    return {};
+  }
+  label.text = readable(value);
+  return label;
+}
+
 std::string finding_card(const std::vector<const CheckResult*>& findings, const std::string& cause) {
   // Of one cause, the finding with the shortest scene is the one to look at; one with a picture before one without.
   const CheckResult& best = **std::min_element(findings.begin(), findings.end(), [](const auto* a, const auto* b) {
@@ -105,13 +129,14 @@ std::string finding_card(const std::vector<const CheckResult*>& findings, const 
     const auto [wanted, came] = values_in(said);
     const bool of_values = !evidence.what.empty() && evidence.what != "count" && !wanted.empty();
     html += picture(evidence, evidence.expected, view, triangles,
-                    of_values ? "Expected: " + wanted : "Expected: covers of each sample", of_values);
+                    of_values ? "Expected: " + wanted : "Expected: covers of each sample", of_values,
+                    of_values ? label_of(said, wanted) : Label{});
     if (!evidence.actual.empty()) {
       const std::string what = evidence.what.empty() ? ""
                                                      : ", where " + evidence.what + " differ" +
                                                            (evidence.what == "values" ? "" : "s") + " ringed";
-      html +=
-          picture(evidence, evidence.actual, view, triangles, of_values ? "Got: " + came + what : "Got" + what, true);
+      html += picture(evidence, evidence.actual, view, triangles, of_values ? "Got: " + came + what : "Got" + what,
+                      true, of_values ? label_of(said, came) : Label{});
     } else {
       html += "<p>The rasterizer gave no image of this scene.</p>\n";
     }

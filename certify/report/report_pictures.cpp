@@ -180,7 +180,7 @@ View zoomed(const Evidence& evidence) {
 }
 
 std::string picture(const Evidence& evidence, const std::vector<std::uint32_t>& counts, const View& view,
-                    const std::vector<Outline>& triangles, const std::string& caption, bool marks) {
+                    const std::vector<Outline>& triangles, const std::string& caption, bool marks, const Label& label) {
   const int width = view.x1 - view.x0, height = view.y1 - view.y0;
   const double scale = kPanelSize / std::max({width, height, 2});
   std::string svg =
@@ -227,7 +227,18 @@ std::string picture(const Evidence& evidence, const std::vector<std::uint32_t>& 
         svg += fmt::format(
             "<path d=\"M{0:.4f} {2:.4f}H{1:.4f}M{3:.4f} {4:.4f}V{5:.4f}\" stroke=\"#fff\" stroke-width=\"{6:.4f}\"/>",
             cx - arm, cx + arm, cy, cx, cy - arm, cy + arm, 1 / scale);
-        if (evidence.samples == 1 && scale >= kLeastNumberScale) {
+        const bool labelled = !label.text.empty() && x == label.x && y == label.y;
+        if (labelled && n == 0) {
+          // It begins where the picture does, if there is no room on that side.
+          const double room = 4.2 * static_cast<double>(label.text.size()) / scale;
+          const double middle = std::clamp(cx, std::min(view.x0 + room, view.x0 + width / 2.0),
+                                           std::max(view.x1 - room, view.x0 + width / 2.0));
+          svg += fmt::format(
+              "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.4f}\" font-weight=\"bold\" fill=\"#b01515\" "
+              "stroke=\"#fff\" stroke-width=\"{:.4f}\" paint-order=\"stroke\" text-anchor=\"middle\">{}</text>",
+              middle, y + 0.97, (kNumberSize + 1) / scale, 3 / scale, escaped(label.text));
+        }
+        if (evidence.samples == 1 && scale >= kLeastNumberScale && !labelled) {
           svg += fmt::format(
               "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.4f}\" fill=\"#1d2129\" text-anchor=\"middle\">{}</text>",
               cx, y + 0.97, kNumberSize / scale, counts[s]);

@@ -32,9 +32,16 @@ struct View {
 // Those around the samples that differ.
 View zoomed(const Evidence& evidence);
 
+// Words at a pixel, in place of its count.
+struct Label {
+  int x = 0, y = 0;
+  std::string text;  // empty: none
+};
+
 // The samples of a view, by how many triangles cover them, under the outlines; with rings where they differ, if `marks`.
 std::string picture(const Evidence& evidence, const std::vector<std::uint32_t>& counts, const View& view,
-                    const std::vector<Outline>& triangles, const std::string& caption, bool marks);
+                    const std::vector<Outline>& triangles, const std::string& caption, bool marks,
+                    const Label& label = {});
 
 // The first sample that differs, and the edge beside it, as large as it takes to tell them apart; empty where no edge
 // is near.

@@ -4,12 +4,12 @@
 #ifndef SUREFILL_CERTIFY_RIVAL_NAMES_HPP
 #define SUREFILL_CERTIFY_RIVAL_NAMES_HPP
 
-#include <functional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "certify/judge/naming.hpp"
+#include "certify/judge/which.hpp"
 #include "certify/rivals/rival_cases.hpp"
 
 namespace surefill::certify {
@@ -18,13 +18,14 @@ namespace surefill::certify {
 std::span<const judge::Fault> known_faults();
 
 // Of a rival whose model section 6 has, scenes on which it is wrong: those given, and some random ones. At most `most`.
+// `fine` gets random ones that it draws right.
 std::vector<judge::Wrong> wrong_scenes(const RivalSubject& subject, std::span<const corpus::Scene> found,
-                                       std::size_t most);
+                                       std::size_t most, std::vector<corpus::Scene>& fine);
 
 // What is wrong with it in sentences, the most telling first, at most three: a known fault that draws nine tenths of it,
-// what all of it has in common, a known fault that draws most of it. `still_wrong` as of judge::symptoms.
+// what all of it has in common, a known fault that draws most of it. `fine` and `trials` as of judge::symptoms.
 std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::span<const judge::Wrong> wrong,
-                                      const std::function<bool(const corpus::Scene&)>& still_wrong);
+                                      std::span<const corpus::Scene> fine, const judge::Trials& trials);
 
 // The same of a rival.
 std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const corpus::Scene> found);

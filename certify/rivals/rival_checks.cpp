@@ -137,8 +137,11 @@ class List {
                   std::uint64_t cases, const Make& make, const Decide& decide) {
     Check& check = add(group, name, rule, claim, cases);
     const RivalSubject& subject = subject_;
-    check.run = [this_seed = settings_.seed, &subject, make, decide, name](std::uint64_t number) {
-      return decide(make(subject, number, case_seed(this_seed, name, number)), subject);
+    check.scene_of = [this_seed = settings_.seed, &subject, make, name](std::uint64_t number) {
+      return make(subject, number, case_seed(this_seed, name, number));
+    };
+    check.run = [&subject, decide, scene_of = check.scene_of](std::uint64_t number) {
+      return decide(scene_of(number), subject);
     };
     check.still_fails = reducible(
         *subject.rival, [&subject, decide](const Scene& scene) { return decide(scene, subject).differences > 0; });
@@ -155,11 +158,14 @@ class List {
     const std::string name = property.name;
     // Where there is nothing to judge one case says so.
     Check& check = add(kInvariants, name, property.rule, property.claim, is_judged(property, subject) ? cases() : 1);
-    check.run = [seed = settings_.seed, &property, &subject, name](std::uint64_t number) {
-      if (!is_judged(property, subject)) return not_applicable();
+    check.scene_of = [seed = settings_.seed, &property, name](std::uint64_t number) {
       std::uint64_t which = case_seed(seed, name, number);
       if (property.exhaustive > 0) which %= property.exhaustive;
-      return property_case(property, property.make(which), subject);
+      return property.make(which);
+    };
+    check.run = [&property, &subject, scene_of = check.scene_of](std::uint64_t number) {
+      if (!is_judged(property, subject)) return not_applicable();
+      return property_case(property, scene_of(number), subject);
     };
     const bool simplifies = property.simplifies;
     // A mesh that loses a triangle tiles no more, so what is left is held against the model.
@@ -326,6 +332,7 @@ class List {
       if (result.differences > 0) result.finding = name + ": " + result.finding;
       return result;
     };
+    check.scene_of = [scenes](std::uint64_t number) { return (*scenes)[number].second; };
     const auto still = reducible(
         *subject.rival, [equal, &subject](const Scene& scene) { return equal(scene, subject).differences > 0; });
     check.still_fails = still;
@@ -337,9 +344,11 @@ class List {
       const std::uint64_t number_of = std::min(property.exhaustive, cases() * 4);
       Check& world = add(kModel, name, property.rule, std::string(claim) + ", on a small world", number_of);
       world.exhaustive = number_of == property.exhaustive;
-      world.run = [seed = settings_.seed, &property, &subject, equal, name,
-                   all = world.exhaustive](std::uint64_t number) {
-        return equal(property.make(all ? number : case_seed(seed, name, number) % property.exhaustive), subject);
+      world.scene_of = [seed = settings_.seed, &property, name, all = world.exhaustive](std::uint64_t number) {
+        return property.make(all ? number : case_seed(seed, name, number) % property.exhaustive);
+      };
+      world.run = [&subject, equal, scene_of = world.scene_of](std::uint64_t number) {
+        return equal(scene_of(number), subject);
       };
       world.still_fails = still;
     }

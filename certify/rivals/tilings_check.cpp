@@ -145,8 +145,11 @@ class Sizes {
   Size size_ = kSmall;
 };
 
-CaseResult whole_mesh(const RivalSubject& subject, const Size& size, std::uint64_t number, std::uint64_t seed) {
-  const Scene scene = mesh(seed, size, number % 4 == 0, number % 2 == 0);
+Scene mesh_of_case(const Size& size, std::uint64_t number, std::uint64_t seed) {
+  return mesh(seed, size, number % 4 == 0, number % 2 == 0);
+}
+
+CaseResult whole_mesh(const RivalSubject& subject, const Scene& scene) {
   if (!subject.strict && (!subject.terms.known || !still_tiles(scene, subject))) return not_applicable();
   return guarded_case(scene, [&] {
     CaseResult result;
@@ -222,8 +225,11 @@ void make_tilings_check(const Settings& settings, const RivalSubject& subject, C
   const auto sizes = std::make_shared<Sizes>(subject);
   check.prepare = [cases = subject.slow ? by_level<std::uint64_t>(settings.level, 8, 100, 2000)
                                         : by_level<std::uint64_t>(settings.level, 8, 80, 2000)] { return cases; };
-  check.run = [seed = settings.seed, name = check.name, &subject, sizes](std::uint64_t number) {
-    return whole_mesh(subject, sizes->largest(), number, case_seed(seed, name, number));
+  check.scene_of = [seed = settings.seed, name = check.name, sizes](std::uint64_t number) {
+    return mesh_of_case(sizes->largest(), number, case_seed(seed, name, number));
+  };
+  check.run = [&subject, scene_of = check.scene_of](std::uint64_t number) {
+    return whole_mesh(subject, scene_of(number));
   };
   adapters::Rival& rival = *subject.rival;
   check.still_fails = [&rival](const Scene& scene) {

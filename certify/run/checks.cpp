@@ -60,6 +60,7 @@ void add_corpus_checks(const Settings& settings, std::vector<Check>& checks) {
     return case_of(number, properties::oracle_renderer(), settings.engine);
   };
   engine.still_fails = still_differs(properties::oracle_renderer(), settings.engine);
+  engine.scene_of = [scenes](std::uint64_t number) { return (*scenes)[number].second; };
   checks.push_back(std::move(engine));
 
   Check second = make_check("corpus-second-oracle", "all rules",
@@ -73,6 +74,7 @@ void add_corpus_checks(const Settings& settings, std::vector<Check>& checks) {
     return case_of(number, properties::oracle_renderer(), properties::clipped_oracle_renderer());
   };
   second.still_fails = still_differs(properties::oracle_renderer(), properties::clipped_oracle_renderer());
+  second.scene_of = [scenes](std::uint64_t number) { return (*scenes)[number].second; };
   second.replay_option = "--second-oracle";
   checks.push_back(std::move(second));
 }
@@ -85,12 +87,15 @@ void add_random_checks(const Settings& settings, std::vector<Check>& checks) {
     const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 1000, 15000, 500000);
     check.prepare = [cases] { return cases; };
     check.cost = 3e-4;
-    check.run = [&settings, &category, name = check.name](std::uint64_t number) {
+    check.scene_of = [&settings, &category, name = check.name](std::uint64_t number) {
       properties::SceneLimits limits;
       limits.samples = settings.support.samples;
       limits.grid = settings.support.grid;
       limits.conservative = settings.support.conservative;
-      const Scene scene = properties::random_scene(category, case_seed(settings.seed, name, number), limits);
+      return properties::random_scene(category, case_seed(settings.seed, name, number), limits);
+    };
+    check.run = [&settings, scene_of = check.scene_of](std::uint64_t number) {
+      const Scene scene = scene_of(number);
       if (!supported(scene, settings.support)) return skipped_case();
       return compare_case(scene, properties::oracle_renderer(), settings.engine);
     };
@@ -105,13 +110,15 @@ void add_random_checks(const Settings& settings, std::vector<Check>& checks) {
   const std::uint64_t cases = by_level<std::uint64_t>(settings.level, 3000, 60000, 2000000);
   check.prepare = [cases] { return cases; };
   check.cost = 1.8e-3;
-  check.run = [&settings, name = check.name](std::uint64_t number) {
+  check.scene_of = [&settings, name = check.name](std::uint64_t number) {
     properties::SceneLimits limits;
     limits.samples = limits.grid = limits.conservative = true;
     const auto categories = properties::categories();
-    const Scene scene = properties::random_scene(categories[number % categories.size()],
-                                                 case_seed(settings.seed, name, number), limits);
-    return compare_case(scene, properties::oracle_renderer(), properties::clipped_oracle_renderer());
+    return properties::random_scene(categories[number % categories.size()], case_seed(settings.seed, name, number),
+                                    limits);
+  };
+  check.run = [scene_of = check.scene_of](std::uint64_t number) {
+    return compare_case(scene_of(number), properties::oracle_renderer(), properties::clipped_oracle_renderer());
   };
   check.still_fails = still_differs(properties::oracle_renderer(), properties::clipped_oracle_renderer());
   check.replay_option = "--second-oracle";
@@ -128,11 +135,14 @@ void add_property_checks(const Settings& settings, std::vector<Check>& checks) {
     check.exhaustive = property.exhaustive > 0 && property.exhaustive <= affordable;
     const std::uint64_t cases = check.exhaustive ? property.exhaustive : property.exhaustive > 0 ? affordable : sampled;
     check.prepare = [cases] { return cases; };
-    check.run = [&settings, &property, exhaustive = check.exhaustive](std::uint64_t number) {
+    check.scene_of = [&settings, &property, exhaustive = check.exhaustive](std::uint64_t number) {
       std::uint64_t seed = number;
       if (!exhaustive) seed = case_seed(settings.seed, property.name, number);
       if (!exhaustive && property.exhaustive > 0) seed %= property.exhaustive;
-      Scene scene = property.make(seed);
+      return property.make(seed);
+    };
+    check.run = [&settings, &property, scene_of = check.scene_of](std::uint64_t number) {
+      Scene scene = scene_of(number);
       if (!supported(scene, settings.support)) return skipped_case();
       properties::TrialResult verdict = property.decide(scene, settings.engine);
       CaseResult result;

@@ -59,6 +59,8 @@ struct Check {
   bool exhaustive = false;  // the cases are all there are; else they are drawn by the seed
   double cost = 1e-4;       // seconds a case, roughly: for estimates of the time left only
   std::function<CaseResult(std::uint64_t number)> run;
+  // The scene that a case looks at, as it is; empty where cases are none.
+  std::function<corpus::Scene(std::uint64_t number)> scene_of;
   // Does a simpler scene show a difference of this kind, too? Empty: a finding is kept as it is.
   std::function<bool(const corpus::Scene&)> still_fails;
   std::string replay_option;  // that `surefill replay` needs to show the difference

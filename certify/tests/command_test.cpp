@@ -82,6 +82,18 @@ bool is_png(const std::string& bytes) {
   return bytes.starts_with("\x89PNG\r\n\x1a\n") && bytes.ends_with("\xAE\x42\x60\x82");
 }
 
+// Any case can be had, right or wrong, with its scene as it is.
+TEST_F(Command, OneCaseAndItsScene) {
+  const Outcome outcome = run("certify --only random-ordinary --case 3");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("random-ordinary, case 3 of "), std::string::npos) << outcome.out;
+  EXPECT_EQ(files(), std::vector<std::string>{"random-ordinary-case-3-1.scene"});
+  EXPECT_EQ(run("replay random-ordinary-case-3-1.scene").status, 0);
+  expect_refused("certify --only random-ordinary --case 1000000", "has cases 0 to ");
+  expect_refused("certify --only 'random-*' --case 3", "the name of one check");
+  expect_refused("certify --case 3", "the name of one check");
+}
+
 TEST_F(Command, RefusesWrongUsage) {
   write("a.obj", kTriangle);
   expect_refused("", "a subcommand is needed: render, certify");
@@ -437,6 +449,9 @@ TEST_F(Command, TellsItsVersionAndUsage) {
   const Outcome version = run("--version");
   EXPECT_EQ(version.status, 0);
   EXPECT_EQ(version.out.rfind("surefill " SUREFILL_VERSION " (", 0), 0u);
+  for (const char* line : {"\ncompiler  ", "\nengine    ", "\nadapters  ", "\ncorpus    "}) {
+    EXPECT_NE(version.out.find(line), std::string::npos) << version.out;
+  }
   for (const char* arguments : {"--help", "render --help", "certify --help", "replay --help", "reduce --help"}) {
     const Outcome help = run(arguments);
     EXPECT_EQ(help.status, 0);

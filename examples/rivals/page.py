@@ -56,8 +56,10 @@ ROWS = (
     Row("OpenCV, fillConvexPoly", "python3-opencv", python("opencv"), "4.6.0", "certified", "",
         "It draws the outline as well as the inside: edges reach half a pixel further than their triangle on all "
         "sides. Meshes overlap along their edges."),
-    Row("Qt, QPainter, not antialiased", "python3-pyqt5", python("qt_painter"), "5.15.8", "not certified", "model, clear-samples",
-        "Not settled: upright and level edges keep to a grid of 1/64 pixel; slanted ones go by no model that was tried."),
+    Row("Qt, QPainter, not antialiased", "python3-pyqt5", python("qt_painter"), "5.15.8", "not certified", "partition-fan",
+        "Positions go to the nearest 1/64 pixel, samples are at the centres of pixels, ties go to the bottom right. A fault: slopes are kept "
+        "with 16 bits after the point, so a sample at a vertex of a mesh may be drawn three times (22 of 266 random fans around a sample). Under 900 random "
+        "triangles, 12 of 1.4 million samples are other than on that grid, none further than 7e-5 pixels from an edge."),
     Row("pygame, draw.polygon", "python3-pygame", python("pygame_polygon"), "2.1.2", "not certified", "model",
         "It takes whole pixels, and draws the outline as well as the inside. A fault that the adapter hides: it goes through all rows of a "
         "triangle, those outside of the image, too, so that one of 2^23 rows takes more than 5 s."),
@@ -137,7 +139,7 @@ The adapters are in [examples/rivals](../examples/rivals); most are ten lines ov
 [certificates](certificates/README.md).
 
 Nobody here is wrong for being another rasterizer than ours. Drawing libraries that draw outlines, or whole pixels that a triangle
-touches, do what they are for. No place of samples explains such a rule, so that little is owed: certify says "none fits" and judges them away
+touches, do what they are for. No place of samples explains such a rule, so that little is owed: certify says "no samples that fit", and what they cover instead, and judges them away
 from edges; where it says "not certified: model" of one of them, read what is said by hand. Where certify itself says what is not so, the last column says "yes", and the section says what; each is a fault of the judge that
 is to be mended.
 

@@ -22,7 +22,8 @@ def draw(xy, height, width):
     painter.setBrush(Qt.white)
     painter.drawPolygon(QPolygonF([QPointF(x, y) for x, y in xy.tolist()]))
     painter.end()
-    return np.frombuffer(image.constBits().asarray(image.sizeInBytes()), np.uint32).reshape(height, width)
+    pixels = np.frombuffer(image.constBits().asarray(image.sizeInBytes()), np.uint32)
+    return pixels.reshape(height, width).copy()  # the memory ends with the image
 
 
 serve(draw, name="Qt QPainter, not antialiased", version=QT_VERSION_STR)

@@ -27,6 +27,9 @@ std::span<const Specimen> specimens();
 // Those whose fault shows in what version 1 of the adapter has: all but output_specimens() and line_specimens().
 std::span<const Specimen> rival_specimens();
 
+// Further ways to be wrong that naming knows and the matrix does not: without names, origins and properties.
+std::span<const Specimen> likenesses();
+
 // One list a theme; specimens() joins them.
 std::span<const Specimen> coverage_specimens();
 std::span<const Specimen> arithmetic_specimens();

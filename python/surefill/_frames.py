@@ -40,6 +40,9 @@ class Context:
         if getattr(self, "_handle", None):
             c.context_destroy(self._handle)
 
+    def __repr__(self) -> str:
+        return "<surefill.Context>"
+
 
 class Statistics(NamedTuple):
     """What the triangles of a frame were; each counts once, as the first that fits."""

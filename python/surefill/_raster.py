@@ -116,7 +116,8 @@ class Raster:
         s = self._settings
         axes = [f"{n} {what}" for n, what in ((s.batch, "images"), (s.layers, "layers")) if n is not None]
         axes += [f"{s.samples} samples"] if s.samples > 1 else []
-        names = [*self._frame.outputs, *(["attributes"] if self._frame.attributes is not None else []), *self._frame.per_triangle]
+        names = [*self._frame.outputs, *(["attributes"] if self._frame.attributes is not None else []), *self._frame.per_triangle,
+                 *(["statistics"] if self._frame.statistics else [])]
         return f"<surefill.Raster {s.height} x {s.width}{''.join(', ' + axis for axis in axes)}: {', '.join(names)}>"
 
 

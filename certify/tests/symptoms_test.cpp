@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What wrong images have in common, in a sentence: of faults that are made here, and whose sentence is known.
+#include "certify/judge/symptoms.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "certify/judge/probes.hpp"
+#include "oracle/oracle.hpp"
+
+namespace surefill::judge {
+namespace {
+
+using corpus::Scene;
+using Fault = std::function<void(Scene& scene)>;          // what it makes of a scene
+using After = std::function<void(corpus::Image& image)>;  // and of an image
+
+corpus::Image right_image(const Scene& scene) {
+  corpus::Frame frame(scene, {true, true, true, false, false});
+  oracle::render(frame.target(), frame.draws());
+  return std::move(frame.image());
+}
+
+// The first sentence about 40 scenes of one to three triangles of very different sizes.
+std::string said_of(const Fault& before, const After& after) {
+  const auto both = [&](const Scene& scene) -> std::optional<Wrong> {
+    Scene changed = scene;
+    if (before) before(changed);
+    Wrong shown{scene, right_image(scene), right_image(changed)};
+    if (after) after(shown.rival);
+    return shown;
+  };
+  const auto differ = [](const Wrong& w) {
+    return w.right.count != w.rival.count || w.right.index != w.rival.index || w.right.depth != w.rival.depth;
+  };
+  const Trials trials{[&](const Scene& scene) { return differ(*both(scene)); }, both};
+  Random random(7);
+  std::vector<Wrong> wrong;
+  std::vector<Scene> fine;
+  for (int n = 0; n < 40; ++n) {
+    std::vector<FlatTriangle> triangles;
+    for (int t = 0; t <= n % 3; ++t) {
+      const double size = n % 2 == 0 ? 14 : 2.5, x = 16 * random.unit(), y = 16 * random.unit();
+      FlatTriangle triangle{};
+      for (Point& p : triangle) {
+        p = {static_cast<float>(x + size * (random.unit() - 0.5)),
+             static_cast<float>(y + size * (random.unit() - 0.5))};
+      }
+      triangles.push_back(triangle);
+    }
+    const Scene scene = flat_scene(16, 16, triangles, static_cast<float>(0.125 + 0.02 * n));
+    const Wrong shown = *both(scene);
+    if (differ(shown)) {
+      wrong.push_back(shown);
+    } else {
+      fine.push_back(scene);
+    }
+  }
+  const std::vector<std::string> sentences = symptoms(wrong, fine, trials);
+  return sentences.empty() ? "" : sentences.front();
+}
+
+Fault without(const std::function<bool(const corpus::SceneDraw&, const corpus::SceneTriangle&)>& lost) {
+  return [lost](Scene& scene) {
+    corpus::SceneDraw& draw = scene.draws[0];
+    std::erase_if(draw.triangles, [&](const corpus::SceneTriangle& t) { return lost(draw, t); });
+  };
+}
+
+double twice_area(const corpus::SceneDraw& draw, const corpus::SceneTriangle& t) {
+  const auto &a = draw.vertices[t.vertices[0]], &b = draw.vertices[t.vertices[1]], &c = draw.vertices[t.vertices[2]];
+  return (double{b.x} - a.x) * (double{c.y} - a.y) - (double{b.y} - a.y) * (double{c.x} - a.x);
+}
+
+TEST(Symptoms, AreSaid) {
+  const auto of_images = [](const auto& change) { return said_of(nullptr, change); };
+  EXPECT_EQ(said_of(nullptr, nullptr), "");
+  const std::string small =
+      said_of(without([](const auto& draw, const auto& t) { return std::abs(twice_area(draw, t)) < 8; }), nullptr);
+  EXPECT_NE(small.find("are not drawn"), std::string::npos) << small;
+  EXPECT_NE(small.find("less than"), std::string::npos) << small;
+  const std::string back =
+      said_of(without([](const auto& draw, const auto& t) { return twice_area(draw, t) < 0; }), nullptr);
+  EXPECT_NE(back.find("face away"), std::string::npos) << back;
+  EXPECT_EQ(of_images([](corpus::Image& image) {
+              for (std::uint32_t& n : image.count) n *= 2;
+            }),
+            "every count is twice what it should be");
+  EXPECT_EQ(of_images([](corpus::Image& image) { std::fill(image.count.begin(), image.count.end(), 0u); }),
+            "nothing is drawn at all");
+  EXPECT_EQ(of_images([](corpus::Image& image) {
+              for (std::uint32_t& n : image.index) n = n == kNoTriangle ? n : n + 1;
+            }),
+            "every index is 1 too large");
+  EXPECT_NE(of_images([](corpus::Image& image) {
+              for (std::size_t s = 0; s < image.count.size(); ++s) image.count[s] = s % 16 == 15 ? 0 : image.count[s];
+            }).find("last column"),
+            std::string::npos);
+  const std::string depth = of_images([](corpus::Image& image) {
+    for (float& z : image.depth) z = 2 * z - 1;
+  });
+  EXPECT_EQ(depth, "depth is 2 z -1, z being what it should be");
+}
+
+}  // namespace
+}  // namespace surefill::judge

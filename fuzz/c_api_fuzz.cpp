@@ -258,8 +258,8 @@ class Call : CallMemory {
     std::size_t there;
     if (known == sizeof d && one_in(4)) d.primitive = enumerator(3);
     if (known == sizeof d && one_in(4)) d.width = one_in(2) ? real() : static_cast<float>(in_.byte()) / 16;
-    const std::size_t corners = d.primitive == SUREFILL_TRIANGLES ? 3 : d.primitive == SUREFILL_LINES ? 2 : 1;
-    d.index_count = told(d.vertex_count == 0 ? 0 : corners * in_.below(5), &there);
+    const std::size_t corners_of_one = d.primitive == SUREFILL_TRIANGLES ? 3 : d.primitive == SUREFILL_LINES ? 2 : 1;
+    d.index_count = told(d.vertex_count == 0 ? 0 : corners_of_one * in_.below(5), &there);
     std::uint32_t* indices = buffer<std::uint32_t>(there * 4, false, &fresh);
     d.indices = indices;
     const auto vertices = static_cast<std::uint32_t>(std::clamp<std::size_t>(d.vertex_count, 1, 8));
@@ -267,7 +267,7 @@ class Call : CallMemory {
       indices[i] = one_in(64) ? 0xFFFFFFFFu - in_.below(2) : in_.below(vertices);
     }
     if (one_in(4)) {
-      d.identifier_count = told(std::min<std::size_t>(d.index_count / corners, 16), &there);
+      d.identifier_count = told(std::min<std::size_t>(d.index_count / corners_of_one, 16), &there);
       std::uint32_t* identifiers = buffer<std::uint32_t>(there * 4, false, &fresh);
       if (fresh && there != 0 && one_in(16)) identifiers[0] = SUREFILL_NO_TRIANGLE;
       d.identifiers = identifiers;
@@ -281,7 +281,7 @@ class Call : CallMemory {
     d.conservative = one_in(16) ? enumerator(5) : 0;
     if (known == sizeof d) {
       if (one_in(8)) d.depth_bias = place(surefill_depth_bias{real(), real()}, sizeof(surefill_depth_bias));
-      const std::size_t triangles = std::min<std::size_t>(d.index_count / corners, 16);
+      const std::size_t triangles = std::min<std::size_t>(d.index_count / corners_of_one, 16);
       if (one_in(8)) output(triangles, &d.covered, &d.covered_count);
       if (one_in(8)) output(triangles, &d.visible, &d.visible_count);
     }

@@ -225,7 +225,7 @@ class Look {
       Range allowed = granted;
       if (draw.depth_mode == DepthMode::clamp) {
         const double step = format_step(model) + 0x1p-23;
-        allowed = {std::clamp(granted.low, -step, 1 + step), std::clamp(granted.high, -step, 1 + step)};
+        allowed = {std::clamp(granted.low, 0.0, 1.0) - step, std::clamp(granted.high, 0.0, 1.0) + step};
         z = std::clamp(z, 0.0, 1.0);
       }
       note("depth", result_.deviations.depth, s, z, allowed, image_.depth[s]);
@@ -384,7 +384,7 @@ class Look {
       range = {range.low - step, range.high + step};
       if (draw.depth_mode == DepthMode::clamp) {
         const double beyond = step + 0x1p-23;
-        range = {std::clamp(range.low, -beyond, 1 + beyond), std::clamp(range.high, -beyond, 1 + beyond)};
+        range = {std::clamp(range.low, 0.0, 1.0) - beyond, std::clamp(range.high, 0.0, 1.0) + beyond};
       }
       hull = {std::min(hull.low, range.low), std::max(hull.high, range.high)};
     }

@@ -311,7 +311,7 @@ std::string inset(const Evidence& evidence, const std::vector<Outline>& triangle
 }
 
 std::string turns_picture(const std::string& turns) {
-  constexpr double kWidth = 640, kRow = 34, kLeft = 96, kRight = 24, kTop = 26;
+  constexpr double kWidth = 336, kRow = 34, kLeft = 72, kRight = 16, kTop = 26;  // as wide as a telephone
   struct Row {
     std::string side;
     std::vector<std::pair<int, double>> at;
@@ -345,8 +345,7 @@ std::string turns_picture(const std::string& turns) {
   };
   std::string svg =
       fmt::format("<svg width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\" font-size=\"12\">", kWidth, height);
-  for (const auto& [place, name] :
-       {std::pair<double, const char*>{-0.5, "-1/2"}, {0, "centre of the pixel"}, {0.5, "+1/2"}}) {
+  for (const auto& [place, name] : {std::pair<double, const char*>{-0.5, "-1/2"}, {0, "centre"}, {0.5, "+1/2"}}) {
     svg += fmt::format(
         "<line x1=\"{0:.1f}\" x2=\"{0:.1f}\" y1=\"{1}\" y2=\"{2:.0f}\" stroke=\"{3}\"/><text x=\"{0:.1f}\" y=\"15\" "
         "text-anchor=\"middle\" fill=\"#40454f\">{4}</text>",

@@ -244,6 +244,29 @@ TEST(Judge, RangesHoldAtOpenSamples) {
   }
 }
 
+// A depth that is clamped from outside of 0 to 1 is 0 or 1, which nothing accuses; another one is wrong.
+TEST(Judge, ClampedDepthsAreNotAccused) {
+  Terms terms;
+  terms.known = true;
+  corpus::Scene scene = flat_scene(4, 4, {{{{0, 0}, {4, 0}, {0, 4}}}}, -0.5f);
+  scene.draws[0].depth_mode = DepthMode::clamp;
+  corpus::Frame frame(scene, {true, true, true, false, false});
+  for (const float depth : {0.0f, -0.5f}) {
+    corpus::Image image = frame.image();
+    const Frame seen{4, 4, 1, DepthTest::less, false, frame.draws()};
+    const Counts counts = counts_under(adapters::oracle_expected(), terms, seen);
+    image.count = counts.least;
+    image.index.assign(16, kNoTriangle);
+    image.depth.assign(16, INFINITY);
+    for (std::size_t s = 0; s < 16; ++s) {
+      if (counts.least[s] == 1) image.index[s] = 0, image.depth[s] = depth;
+    }
+    const Judgement judgement = judge_image(adapters::oracle_expected(), terms, seen, image, {}, {});
+    EXPECT_EQ(judgement.differences == 0, depth == 0) << judgement.finding;
+    EXPECT_GT(judgement.samples, 5u);
+  }
+}
+
 // What the judge says can be red: a picture that is right under one model is wrong under another.
 TEST(Judge, AnotherModelIsAccused) {
   Right rival(with({{zoo::kPlace, 1}}));

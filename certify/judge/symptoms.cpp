@@ -481,8 +481,9 @@ constexpr Part kParts[] = {
     {"other triangles drawn before it",
      [](const Scene& s) { return s.draws.size() > 1 || (!s.draws.empty() && s.draws[0].triangles.size() > 1); },
      [](Scene& s) {
-       s.draws.erase(s.draws.begin() + 1, s.draws.end());
-       s.draws[0].triangles.erase(s.draws[0].triangles.begin() + 1, s.draws[0].triangles.end());
+       s.draws.resize(1);
+       auto& triangles = s.draws[0].triangles;  // there may be none in it
+       triangles.resize(std::min<std::size_t>(triangles.size(), 1));
      }},
 };
 

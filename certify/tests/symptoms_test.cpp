@@ -106,5 +106,27 @@ TEST(Symptoms, AreSaid) {
   EXPECT_EQ(depth, "depth is 2 z -1, z being what it should be");
 }
 
+// What a scene needs is found by taking parts away: where there is nothing to take, nothing is.
+TEST(Symptoms, AFirstDrawMayHaveNoTriangles) {
+  std::vector<Wrong> wrong;
+  for (int n = 0; n < 12; ++n) {
+    const FlatTriangle triangle = {Point{1, 1}, Point{14, static_cast<float>(n)}, Point{3, 15}};
+    Wrong& shown = wrong.emplace_back();
+    shown.scene = flat_scene(16, 16, {triangle}, 0.5F);
+    shown.scene.draws.insert(shown.scene.draws.begin(), corpus::SceneDraw{});
+    shown.right.width = shown.right.height = shown.rival.width = shown.rival.height = 16;
+    shown.right.count.assign(256, 1), shown.rival.count = shown.right.count;
+    shown.rival.count[static_cast<std::size_t>(17 * n + 3)] = 0,
+                                                        shown.rival.count[static_cast<std::size_t>(11 * n)] = 3;
+  }
+  std::size_t tried = 0;
+  const auto still_wrong = [&tried](const Scene& scene) {
+    tried += scene.draws.size() == 1 && scene.draws[0].triangles.empty();
+    return true;
+  };
+  (void)symptoms(wrong, {}, {still_wrong, [](const Scene&) { return std::nullopt; }});
+  EXPECT_EQ(tried, wrong.size());
+}
+
 }  // namespace
 }  // namespace surefill::judge

@@ -253,6 +253,7 @@ struct Placed {
   enum class Kind { boxes, clipped, open, nothing } kind = Kind::boxes;
   std::array<Box, 3> boxes;  // of `boxes`, positive; of `open`
   bool front = true;
+  bool culled = false;  // of `clipped`, where it is clear
 };
 
 Placed place_triangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t) {
@@ -267,7 +268,7 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
   }
   const bool culled = model.culled != Cull::none && (model.culled == Cull::front) == placed.front;
   if (!near) {
-    placed.kind = d != 0 && culled ? Placed::Kind::nothing : Placed::Kind::clipped;
+    placed.kind = Placed::Kind::clipped, placed.culled = culled;
     return placed;
   }
   const Signs area = signs_of_area(placed.boxes);
@@ -340,7 +341,8 @@ Cover answer_at(const Model& model, const Placed& placed, const Sample& sample, 
 // R9: near its edges all is open.
 class ClippedTriangle {
  public:
-  ClippedTriangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t) : edges_(t) {
+  ClippedTriangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t, bool culled)
+      : edges_(t), culled_(culled) {
     const auto step = [](const AxisModel& axis) {
       return axis.place_within + 2 * std::max(axis.blur, axis.divided_blur) +
              (axis.bits < 0 ? 0 : std::ldexp(1.0, -axis.bits));
@@ -371,11 +373,12 @@ class ClippedTriangle {
       if (negative) return Cover::no;
       inside = inside && positive;
     }
-    return inside ? Cover::yes : Cover::open;
+    return !inside ? Cover::open : culled_ ? Cover::no : Cover::yes;
   }
 
  private:
   Edges edges_;
+  bool culled_;
   std::array<double, 2> stretch_{}, moved_{};
   double distance_ = 0;
   int sign_ = 0;
@@ -459,7 +462,7 @@ std::vector<Cover> cover(const Model& model, int width, int height, int samples,
     return static_cast<int>(std::floor(std::clamp(at, 0.0, static_cast<double>(length))));
   };
   std::optional<ClippedTriangle> clipped;
-  if (placed.kind == Placed::Kind::clipped) clipped.emplace(model, width, height, triangle);
+  if (placed.kind == Placed::Kind::clipped) clipped.emplace(model, width, height, triangle, placed.culled);
   const std::vector<Corner> hull = placed.kind == Placed::Kind::open ? hull_of(placed.boxes) : std::vector<Corner>();
   const double certain = certain_above(size);
   for (int y = pixel(y0, height); y < pixel(y1 + 1, height); ++y) {

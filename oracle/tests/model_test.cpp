@@ -218,6 +218,30 @@ TEST(Model, ThinTrianglesAreOpenOnAGrid) {
   EXPECT_EQ(cover(model, 1, 1, 1, thin)[0], Cover::yes);
 }
 
+// Pieces of a clipped triangle may turn where they are snapped: who culls by what came of them is right, too.
+TEST(Model, ClippedTrianglesThatAreCulledAreOpenNearTheirEdges) {
+  Model model;
+  model.x.bits = model.y.bits = 8, model.culled = Cull::back;
+  // D < 0 by less than 2^-20 of its terms.
+  const std::array<Vertex, 3> thin{{{0x1.8fc8p-5F, -0x1.e53ap-2F, 0, -0x1.53p-8F},
+                                    {0x1.d2cp-18F, -0x1.168p-16F, 0, 0x1.378p-17F},
+                                    {-0x1.8ec8p-18F, 0x1.e55ap-15F, 0, 0x1.63p-21F}}};
+  EXPECT_EQ(cover(model, 1, 1, 1, thin)[0], Cover::open);
+  // Half of the plane, seen from behind: clear within, open at its border, and clear beside it.
+  const std::array<Vertex, 3> wide{{{4, 0, 0, 1}, {4, 8, 0, 1}, {4, 4, 0, -1}}};
+  const std::vector<Cover> answers = cover(model, 8, 8, 1, wide);
+  std::size_t open = 0;
+  for (const Cover answer : answers) {
+    EXPECT_NE(answer, Cover::yes);
+    open += answer == Cover::open;
+  }
+  EXPECT_LT(open, answers.size() / 2);
+  model.culled = Cull::none;
+  const std::vector<Cover> drawn = cover(model, 8, 8, 1, wide);
+  EXPECT_GT(std::count(drawn.begin(), drawn.end(), Cover::yes), 0);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(drawn.begin(), drawn.end(), Cover::open)), open);
+}
+
 TEST(Model, RoundingsDifferAtTiesOnly) {
   // An edge at 0.5 of a grid of whole pixels, and at -0.5 off the screen: seen through a slanted edge's other end.
   const auto covers = [](Rounding rounding, float edge) {

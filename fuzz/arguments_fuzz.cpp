@@ -300,7 +300,8 @@ class Arguments {
       }
     }
     draw.indices = indices;
-    note((indices.data() == nullptr && !indices.empty()) || indices.size() % corners_of(draw) != 0,
+    note((indices.data() == nullptr && !indices.empty()) || indices.size() % corners_of(draw) != 0 ||
+             indices.size() / corners_of(draw) >= kNoTriangle,
          Status::draw_indices);
     const std::size_t drawn = indices.size() / corners_of(draw);
 

@@ -120,8 +120,8 @@ class Call : CallMemory {
     wrong.insert(wrong.end(), wrong_options_.begin(), wrong_options_.end());
     if (c == nullptr) wrong.push_back(SUREFILL_NULL_OCCLUSION);
     if (wrong.empty()) {
-      const Status expected = cpp.draw(cpp_draws_, nullptr, cpp_options_);
-      if (drawn != static_cast<surefill_status>(expected)) fail("surefill_occlusion_draw says " + text(drawn));
+      const auto expected = static_cast<surefill_status>(cpp.draw(cpp_draws_, nullptr, cpp_options_));
+      if (drawn != expected && !either_is_right(drawn, expected)) fail("surefill_occlusion_draw says " + text(drawn));
     } else if (drawn == SUREFILL_OK) {
       fail("surefill_occlusion_draw accepts wrong arguments");
     }
@@ -284,6 +284,7 @@ class Call : CallMemory {
       const std::size_t triangles = std::min<std::size_t>(d.index_count / corners_of_one, 16);
       if (one_in(8)) output(triangles, &d.covered, &d.covered_count);
       if (one_in(8)) output(triangles, &d.visible, &d.visible_count);
+      vast_numbers_ = vast_numbers_ || d.covered_count > 0xFFFFFFFFu || d.visible_count > 0xFFFFFFFFu;
     }
     d.depth_write_off = one_in(4) ? in_.word() : 0;
     const auto edge = [this] { return one_in(4) ? static_cast<int>(in_.word()) : static_cast<int>(in_.below(8)); };
@@ -458,9 +459,16 @@ class Call : CallMemory {
     }
   }
 
+  // Numbers that are said to reach over half of memory overlap what happens to lie there, in C or in C++.
+  bool either_is_right(surefill_status c, surefill_status cpp) const {
+    return vast_numbers_ && c != SUREFILL_OK && cpp != SUREFILL_OK &&
+           (c == SUREFILL_TARGET_OVERLAP || cpp == SUREFILL_TARGET_OVERLAP);
+  }
+
   void expect(const char* call, surefill_status actual, Status cpp, const std::vector<surefill_status>& wrong) const {
     const auto same = static_cast<surefill_status>(cpp);
     const std::string says = std::string(call) + " says " + text(actual) + ", C++ " + text(same);
+    if (either_is_right(actual, same)) return;
     if (wrong.empty() && !strided_overlap_) {
       if (actual != same) fail(says);
       return;
@@ -540,6 +548,7 @@ class Call : CallMemory {
   // What is wrong of C alone: with the frame, with its draws, with options and statistics.
   std::vector<surefill_status> wrong_, wrong_draws_, wrong_size_of_draw_, wrong_options_;
   bool strided_overlap_ = false;
+  bool vast_numbers_ = false;  // a draw's covered or visible ones
 
   Target cpp_target_;
   std::vector<AttributeTarget> cpp_attribute_targets_;

@@ -34,7 +34,7 @@ FAULTS = [
     Fault("residual-unchecked", "triangle", True, "the residual rung forgets its last sum", "engine/src/exact/edge.hpp",
           "if (ax.error == 0 && by.error == 0 && ab.error == 0 && abc.error == 0) {",
           "if (ax.error == 0 && by.error == 0 && ab.error == 0) {"),
-    Fault("value-bound-zero", "triangle", True, "no error bound of values", "engine/src/exact/triangle.hpp",
+    Fault("value-bound-zero", "triangle", True, "no error bound of values", "engine/src/exact/approximation.hpp",
           "(1 + 0x1p-20)}",
           "0}"),
     Fault("halfway-away-from-even", "triangle", True, "halfway cases rounded up", "engine/src/exact/exact.hpp",

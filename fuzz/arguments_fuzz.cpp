@@ -289,8 +289,10 @@ class Arguments {
     draw.vertices = vertices(in_.below(7));
     if (one_in(4)) draw.primitive = enumerator(Primitive::points, Status::draw_primitive);
     const std::size_t triangles = draw.vertices.empty() ? 0 : in_.below(5);
-    const std::span<std::uint32_t> indices =
+    std::span<std::uint32_t> indices =
         buffer<std::uint32_t>(corners_of(draw) * triangles + (one_in(32) ? 1 : 0), false, &how);
+    // Half of 2^32 lines could be drawn, and would be read: too many of every primitive are three times as many.
+    if (how == Spoiled::too_many) indices = {indices.data(), 3 * kTooMany};
     const bool readable = indices.data() != nullptr && indices.size() < kTooMany;
     if (readable && how != Spoiled::on_another && how != Spoiled::inside_another) {
       for (std::uint32_t& index : indices) {
@@ -444,6 +446,10 @@ class Arguments {
     add(target_.barycentrics, true);
     add(target_.winding, true);
     add(target_.sample_locations, false);
+    // The lists and the target: an output whose size is far too large reaches them, wherever memory happens to lie.
+    add(target_.attributes, false);
+    add(draws_, false);
+    add(std::span<const Target>(&target_, 1), false);
     for (const AttributeTarget& attribute : attribute_targets_) add(attribute.values, true);
     if (target_.initial_depth.data() != target_.depth.data()) add(target_.initial_depth, false);
     for (const Draw& draw : own_draws_) {
@@ -452,6 +458,7 @@ class Arguments {
       add(draw.identifiers, false);
       add(draw.covered, true);
       add(draw.visible, true);
+      add(draw.attributes, false);
       for (const AttributeArray& attribute : draw.attributes) add(attribute.values, false);
     }
     for (std::size_t i = 0; i < ranges.size(); ++i) {

@@ -1827,14 +1827,16 @@ class Outputs {
 
   bool touched_by(const Bytes& bytes) const { return touches(bytes, 0, count_) || numbers_touch(bytes); }
 
- private:
-  bool touches(const Bytes& bytes, std::size_t begin, std::size_t end) const {
-    return std::any_of(bytes_ + begin, bytes_ + end, [&](const Bytes& output) { return output.overlaps(bytes); });
-  }
+  // Do the numbers of a draw's triangles lie on these bytes?
   bool numbers_touch(const Bytes& bytes) const {
     return std::any_of(draws_.begin(), draws_.end(), [&](const Draw& draw) {
       return Bytes(draw.covered).overlaps(bytes) || Bytes(draw.visible).overlaps(bytes);
     });
+  }
+
+ private:
+  bool touches(const Bytes& bytes, std::size_t begin, std::size_t end) const {
+    return std::any_of(bytes_ + begin, bytes_ + end, [&](const Bytes& output) { return output.overlaps(bytes); });
   }
 
   // Two images whose memory overlaps: does each keep to its own components of every sample? By the distance of their
@@ -3034,7 +3036,9 @@ Status check_call(const Target& target, std::span<const Draw> draws, const Stati
   outputs.add(Bytes::of(statistics));
   if (!outputs.add(Bytes::of(options.diagnostics))) return Status::target_overlap;
   if (const Status status = validate_frame(target, draws, outputs); status != Status::ok) return status;
-  const bool touched = outputs.touched_by(Bytes::of(&options)) || outputs.touched_by(Bytes::of(options.context));
+  const bool touched = outputs.touched_by(Bytes::of(&options)) || outputs.touched_by(Bytes::of(options.context)) ||
+                       outputs.numbers_touch(Bytes::of(statistics)) ||
+                       outputs.numbers_touch(Bytes::of(options.diagnostics));
   return touched ? Status::target_overlap : Status::ok;
 }
 

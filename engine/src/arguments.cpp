@@ -245,7 +245,9 @@ Status check_call(const Target& target, std::span<const Draw> draws, const Stati
   outputs.add(Bytes::of(statistics));
   if (!outputs.add(Bytes::of(options.diagnostics))) return Status::target_overlap;
   if (const Status status = validate_frame(target, draws, outputs); status != Status::ok) return status;
-  const bool touched = outputs.touched_by(Bytes::of(&options)) || outputs.touched_by(Bytes::of(options.context));
+  const bool touched = outputs.touched_by(Bytes::of(&options)) || outputs.touched_by(Bytes::of(options.context)) ||
+                       outputs.numbers_touch(Bytes::of(statistics)) ||
+                       outputs.numbers_touch(Bytes::of(options.diagnostics));
   return touched ? Status::target_overlap : Status::ok;
 }
 

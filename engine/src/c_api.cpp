@@ -83,7 +83,8 @@ class Arguments {
     if (statistics == nullptr) return;
     std::size_t size;
     std::memcpy(&size, statistics, sizeof size);
-    outputs_.add(Bytes(statistics, size));
+    statistics_ = Bytes(statistics, size);
+    outputs_.add(statistics_);
   }
 
   surefill_status read_target(const surefill_target* from) {
@@ -169,6 +170,7 @@ class Arguments {
     draws = {draws_.get(), count};
     // Only now are all outputs known: what the structs and lists are read from may not be one of them.
     outputs_.add_numbers(draws);
+    overlaps_ = overlaps_ || outputs_.numbers_touch(statistics_);
     read(Bytes(from, count * stride));
     for (const Bytes& of_target : target_reads_) read(of_target);
     for (std::size_t i = 0; i < count && outputs_.has_numbers(); ++i) {
@@ -305,6 +307,7 @@ class Arguments {
   std::unique_ptr<Vertex[]> vertices_;  // of all draws whose vertices have a stride
   Options options_;
   Outputs outputs_;
+  Bytes statistics_;       // what is written of them
   Bytes target_reads_[4];  // what is read of the target
   bool overlaps_ = false;  // an output overlaps one of the originals
 };

@@ -28,6 +28,7 @@ constexpr std::size_t kSamples = kSide * kSide;
 constexpr Vertex kVertices[] = {{0, 0, 0.5f, 1}, {9, 0, 0.5f, 1}, {0, 9, 0.5f, 1}, {9, 9, 0.5f, 1}};
 constexpr std::uint32_t kIndices[] = {0, 1, 2, 1, 3, 2, 0, 1, 3, 0, 3, 2};
 constexpr std::uint32_t kIdentifiers[] = {4, 3, 2, 1};
+constexpr SampleLocation kLocations[] = {{5, 9}};
 constexpr float kValues[8] = {1, 2, 3, 4, 5, 6, 7, 8};
 
 // Places an input and an output in one piece of memory: the output begins `shift` bytes from the input.
@@ -71,6 +72,8 @@ struct Call {
   std::vector<float> depth = std::vector<float>(kSamples), initial = std::vector<float>(kSamples, 1.0f);
   std::vector<float> barycentrics = std::vector<float>(3 * kSamples), first = std::vector<float>(kSamples),
                      second = std::vector<float>(2 * kSamples);
+  std::vector<std::int32_t> winding = std::vector<std::int32_t>(kSamples);
+  std::uint64_t covered[4] = {}, visible[4] = {};
   AttributeTarget attribute_targets[2] = {{first, 1}, {second, 2}};
   AttributeArray arrays[2] = {{std::span(kValues, 4), 1, 0, Interpolation::perspective},
                               {kValues, 2, 0, Interpolation::flat}};
@@ -90,6 +93,8 @@ struct Call {
     target.width = target.height = kSide;
     target.count = count, target.index = index, target.depth = depth, target.barycentrics = barycentrics;
     target.attributes = attribute_targets, target.initial_depth = initial;
+    target.winding = winding, target.sample_locations = kLocations;
+    draws[1].covered = covered, draws[2].visible = visible;
   }
 };
 
@@ -116,6 +121,11 @@ const Movable<Call> kOutputs[] = {
      [](Call& c, std::byte* to) { c.attribute_targets[0].values = moved_span(c.attribute_targets[0].values, to); }},
     {"attribute 1", 8 * kSamples,
      [](Call& c, std::byte* to) { c.attribute_targets[1].values = moved_span(c.attribute_targets[1].values, to); }},
+    {"winding", 4 * kSamples, [](Call& c, std::byte* to) { c.target.winding = moved_span(c.target.winding, to); }},
+    {"covered", sizeof(Call::covered),
+     [](Call& c, std::byte* to) { c.draws[1].covered = moved_span(c.draws[1].covered, to); }},
+    {"visible", sizeof(Call::visible),
+     [](Call& c, std::byte* to) { c.draws[2].visible = moved_span(c.draws[2].visible, to); }},
     {"statistics", sizeof(Statistics),
      [](Call& c, std::byte* to) { c.used_statistics = reinterpret_cast<Statistics*>(to); }},
     {"diagnostics", sizeof(Diagnostics),
@@ -167,6 +177,10 @@ const Movable<Call> kInputs[] = {
      [](Call& c, std::byte* to) {
        c.arrays[1].values = {moved<float>(to, kValues), 8};
      }},
+    {"sample locations", sizeof kLocations,
+     [](Call& c, std::byte* to) {
+       c.target.sample_locations = {moved<SampleLocation>(to, kLocations), 1};
+     }},
 };
 
 // Options are the call's, not the frame's: validate sees them as little as it sees statistics.
@@ -199,8 +213,9 @@ TEST(Overlap, OutputsAndInputs) {
       }
     }
   }
-  EXPECT_EQ(refused, 2 * (8 * 12 * 3 - 1));
-  EXPECT_EQ(accepted, 2 * (8 * 12 * 2 + 1));
+  const int pairs = static_cast<int>(std::size(kOutputs) * std::size(kInputs));
+  EXPECT_EQ(refused, 2 * (pairs * 3 - 1));
+  EXPECT_EQ(accepted, 2 * (pairs * 2 + 1));
 }
 
 TEST(Overlap, OutputsAndOutputs) {
@@ -310,6 +325,7 @@ TEST(Overlap, OcclusionDraws) {
   for (const auto& input : kInputs) {
     const std::string name = input.name;
     if (name.starts_with("the target") || name == "initial depth" || name == "the options") continue;
+    if (name == "sample locations") continue;  // the target's
     OcclusionBuffer buffer;
     ASSERT_EQ(buffer.resize(40, 40), Status::ok);
     auto* depth = reinterpret_cast<std::byte*>(const_cast<float*>(buffer.depth().data()));
@@ -335,12 +351,15 @@ struct CCall {
   std::vector<float> depth = std::vector<float>(kSamples), initial = std::vector<float>(kSamples, 1.0f);
   std::vector<float> barycentrics = std::vector<float>(3 * kSamples), first = std::vector<float>(kSamples),
                      second = std::vector<float>(2 * kSamples);
+  std::vector<std::int32_t> winding = std::vector<std::int32_t>(kSamples);
+  std::uint64_t covered[4] = {}, visible[4] = {};
   std::array<float, 5 * 4> strided{};  // four vertices, 20 bytes apart
   surefill_attribute_target attribute_targets[2] = {{first.data(), kSamples, 1, 0},
                                                     {second.data(), 2 * kSamples, 2, 0}};
   surefill_attribute_array arrays[2] = {{kValues, 4, 1, 0, SUREFILL_PERSPECTIVE}, {kValues, 8, 2, 0, SUREFILL_FLAT}};
   surefill_scissor scissor{0, 0, kSide, kSide};
   surefill_grid grid{8, 0, 0, SUREFILL_NEAREST_EVEN};
+  surefill_place location{5, 9};
   surefill_vertex box[8] = {};
   surefill_draw draws[3] = {};
   surefill_target target{};
@@ -371,6 +390,10 @@ struct CCall {
     target.barycentrics = barycentrics.data(), target.barycentrics_count = 3 * kSamples;
     target.attributes = attribute_targets, target.attribute_count = 2;
     target.initial_depth = initial.data(), target.initial_depth_count = kSamples;
+    target.winding = winding.data(), target.winding_count = kSamples;
+    target.sample_locations = &location, target.sample_location_count = 1;
+    draws[1].covered = covered, draws[1].covered_count = 4;
+    draws[2].visible = visible, draws[2].visible_count = 4;
     options.struct_size = sizeof options;
     statistics.struct_size = sizeof statistics;
   }
@@ -388,6 +411,9 @@ const Movable<CCall> kCOutputs[] = {
     {"barycentrics", 12 * kSamples, [](CCall& c, std::byte* to) { c.target.barycentrics = as<float>(to); }},
     {"attribute 0", 4 * kSamples, [](CCall& c, std::byte* to) { c.attribute_targets[0].values = as<float>(to); }},
     {"attribute 1", 8 * kSamples, [](CCall& c, std::byte* to) { c.attribute_targets[1].values = as<float>(to); }},
+    {"winding", 4 * kSamples, [](CCall& c, std::byte* to) { c.target.winding = as<std::int32_t>(to); }},
+    {"covered", sizeof(CCall::covered), [](CCall& c, std::byte* to) { c.draws[1].covered = as<std::uint64_t>(to); }},
+    {"visible", sizeof(CCall::visible), [](CCall& c, std::byte* to) { c.draws[2].visible = as<std::uint64_t>(to); }},
     {"statistics", sizeof(surefill_statistics),
      [](CCall& c, std::byte* to) {
        c.used_statistics = moved<surefill_statistics>(to, std::span<const surefill_statistics>(&c.statistics, 1));
@@ -442,6 +468,10 @@ const Movable<CCall> kCInputs[] = {
      }},
     {"culling box", sizeof(CCall::box),
      [](CCall& c, std::byte* to) { c.draws[1].culling_box = moved<surefill_vertex>(to, c.box); }},
+    {"sample locations", sizeof(surefill_place),
+     [](CCall& c, std::byte* to) {
+       c.target.sample_locations = moved<surefill_place>(to, std::span<const surefill_place>(&c.location, 1));
+     }},
 };
 
 // Inputs count up to the next multiple of 8 bytes, where an output can begin: the overlap is of 4 bytes at least.
@@ -498,6 +528,7 @@ TEST(Overlap, OcclusionDrawsInC) {
   for (const auto& input : kCInputs) {
     const std::string name = input.name;
     if (name.starts_with("the target") || name == "initial depth" || name == "the options") continue;
+    if (name == "sample locations") continue;  // the target's
     surefill_occlusion* occlusion = nullptr;
     ASSERT_EQ(surefill_occlusion_create(40, 40, SUREFILL_LESS, &occlusion), SUREFILL_OK);
     auto* depth = reinterpret_cast<std::byte*>(const_cast<float*>(surefill_occlusion_depth(occlusion)));

@@ -148,6 +148,11 @@ enum class Status : std::uint32_t {
   draw_visible,             // visible: the same, or with a conservative draw [M10]
   draw_primitive,           // not an enumerator of Primitive
   draw_width,               // not finite, not above 0, or none for lines of a target with several samples [M7]
+  draw_scissor,             // of a safe occlusion buffer: a scissor [O4]
+  draw_depth_write,         // of the same: depth write off
+  occluder_positions,       // null but not empty, a stride under 3, an incomplete last one, or over 2^32 - 1
+  occluder_mesh,            // null
+  occluder_vertices,        // two at one place of the mesh differ in X, Y or W [O4]
 };
 
 // An English sentence for a status, without a full stop; never null. For an unknown value, "unknown status".

@@ -347,6 +347,16 @@ const char* status_text(Status status) noexcept {
       return "a draw's primitive is not an enumerator of Primitive";
     case Status::draw_width:
       return "a draw's width is not finite and above 0, or its lines have none where there are several samples";
+    case Status::draw_scissor:
+      return "an occluder of a safe buffer has a scissor";
+    case Status::draw_depth_write:
+      return "an occluder of a safe buffer has depth write off";
+    case Status::occluder_positions:
+      return "an occluder mesh's positions are null, too many, incomplete, or less than 3 floats apart";
+    case Status::occluder_mesh:
+      return "an occluder's mesh is null";
+    case Status::occluder_vertices:
+      return "two vertices of an occluder that lie at one place of its mesh differ in X, Y or W";
   }
   return "unknown status";
 }

@@ -34,7 +34,7 @@ static_assert(static_cast<int>(Status::query_answers) == SUREFILL_QUERY_ANSWERS)
 static_assert(static_cast<int>(Status::bad_build) == SUREFILL_BAD_BUILD);
 static_assert(static_cast<int>(Status::target_outputs) == SUREFILL_TARGET_OUTPUTS);
 static_assert(static_cast<int>(Status::draw_visible) == SUREFILL_DRAW_VISIBLE);
-static_assert(static_cast<int>(Status::draw_width) == SUREFILL_DRAW_WIDTH);
+static_assert(static_cast<int>(Status::occluder_vertices) == SUREFILL_OCCLUDER_VERTICES);
 static_assert(static_cast<int>(Primitive::points) == SUREFILL_POINTS);
 static_assert(static_cast<int>(Status::visitor) == SUREFILL_VISITOR);
 static_assert(static_cast<int>(FillRule::open) == SUREFILL_OPEN);

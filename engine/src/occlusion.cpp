@@ -161,45 +161,47 @@ struct OcclusionBuffer::State {
     return k == 0 ? sign() * value : value;
   }
 
-  // Is a pixel of `box`, which is not empty and lies in the target, farther than `nearest`?
-  bool sees(int k, const PixelBox& box, float nearest) const {
+  // Is a pixel of `box`, which is not empty and lies in the target, farther than `nearest`, or as far if `equal` (O6)?
+  bool sees(int k, const PixelBox& box, float nearest, bool equal) const {
     const int shift = k * kFanoutLog2;
     for (int by = box.y0 >> shift; by <= (box.y1 - 1) >> shift; ++by) {
       for (int bx = box.x0 >> shift; bx <= (box.x1 - 1) >> shift; ++bx) {
-        if (!(nearest < key(k, bx, by))) continue;
+        const float farthest = key(k, bx, by);
+        if (equal ? !(nearest <= farthest) : !(nearest < farthest)) continue;
         if (k == 0) return true;
         const PixelBox block{bx << shift, by << shift, std::min((bx + 1) << shift, width),
                              std::min((by + 1) << shift, height)};
         const PixelBox part{std::max(box.x0, block.x0), std::max(box.y0, block.y0), std::min(box.x1, block.x1),
                             std::min(box.y1, block.y1)};
         const bool whole = part.x0 == block.x0 && part.y0 == block.y0 && part.x1 == block.x1 && part.y1 == block.y1;
-        if (whole || sees(k - 1, part, nearest)) return true;
+        if (whole || sees(k - 1, part, nearest, equal)) return true;
       }
     }
     return false;
   }
 
-  Occlusion answer(const Question& question) const {
+  Occlusion answer(const Question& question, bool equal) const {
     const PixelBox& box = question.pixels;
     if (box.empty()) return Occlusion::outside;
     int k = 0;
     while (k < kLevels && std::max(box.x1 - box.x0, box.y1 - box.y0) >> (k * kFanoutLog2) > kSpanAtStart) ++k;
-    return sees(k, box, question.nearest) ? Occlusion::visible : Occlusion::hidden;
+    return sees(k, box, question.nearest, equal) ? Occlusion::visible : Occlusion::hidden;
   }
 
   // Not inlined: it needs the engine's floating-point state.
   template <typename Box>
-  [[gnu::noinline]] static Status answer_all(const State* state, std::span<const Box> boxes, Occlusion* answers) {
+  [[gnu::noinline]] static Status answer_all(const State* state, std::span<const Box> boxes, Occlusion* answers,
+                                             bool equal) {
     if (!std::all_of(boxes.begin(), boxes.end(), [](const Box& box) { return legal(box); })) return Status::query_boxes;
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      answers[i] =
-          state == nullptr ? Occlusion::outside : state->answer(question_of(boxes[i], state->sign(), state->target()));
+      answers[i] = state == nullptr ? Occlusion::outside
+                                    : state->answer(question_of(boxes[i], state->sign(), state->target()), equal);
     }
     return Status::ok;
   }
 
   template <typename Box>
-  static Status query(const State* state, std::span<const Box> boxes, std::span<Occlusion> answers) {
+  static Status query(const State* state, std::span<const Box> boxes, std::span<Occlusion> answers, bool equal) {
     if (!is_exact_build()) return Status::bad_build;
     if (boxes.data() == nullptr && !boxes.empty()) return Status::query_boxes;
     if (answers.size() != boxes.size() || (answers.data() == nullptr && !answers.empty())) return Status::query_answers;
@@ -209,7 +211,7 @@ struct OcclusionBuffer::State {
       return Status::target_overlap;
     }
     const FloatEnvironment environment;
-    return answer_all(state, boxes, answers.data());
+    return answer_all(state, boxes, answers.data(), equal);
   }
 };
 
@@ -217,10 +219,12 @@ OcclusionBuffer::~OcclusionBuffer() {
   delete state_;
 }
 
-OcclusionBuffer::OcclusionBuffer(OcclusionBuffer&& other) noexcept : state_(std::exchange(other.state_, nullptr)) {}
+OcclusionBuffer::OcclusionBuffer(OcclusionBuffer&& other) noexcept
+    : state_(std::exchange(other.state_, nullptr)), equal_is_visible_(other.equal_is_visible_) {}
 
 OcclusionBuffer& OcclusionBuffer::operator=(OcclusionBuffer&& other) noexcept {
   std::swap(state_, other.state_);
+  std::swap(equal_is_visible_, other.equal_is_visible_);
   return *this;
 }
 
@@ -256,12 +260,12 @@ Status OcclusionBuffer::draw(std::span<const Draw> occluders, Statistics* statis
 }
 
 Status OcclusionBuffer::query(std::span<const OcclusionBox> boxes, std::span<Occlusion> answers) const noexcept {
-  return State::query(state_, boxes, answers);
+  return State::query(state_, boxes, answers, equal_is_visible_);
 }
 
 Status OcclusionBuffer::query(std::span<const OcclusionRectangle> rectangles,
                               std::span<Occlusion> answers) const noexcept {
-  return State::query(state_, rectangles, answers);
+  return State::query(state_, rectangles, answers, equal_is_visible_);
 }
 
 int OcclusionBuffer::width() const noexcept {

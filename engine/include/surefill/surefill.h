@@ -90,6 +90,11 @@ typedef enum surefill_status {
   SUREFILL_DRAW_VISIBLE,    /* the same, or with a conservative draw [M10] */
   SUREFILL_DRAW_PRIMITIVE,  /* not a surefill_primitive */
   SUREFILL_DRAW_WIDTH,      /* not finite, below 0, or 0 for lines of a target with several samples [M7] */
+  SUREFILL_DRAW_SCISSOR,    /* of a safe occlusion buffer: a scissor [O4] */
+  SUREFILL_DRAW_DEPTH_WRITE,   /* of the same: depth write off */
+  SUREFILL_OCCLUDER_POSITIONS, /* null, over 2^32 - 1, or a stride under 12 or no multiple of 4 */
+  SUREFILL_OCCLUDER_MESH,      /* the mesh, or the place for a new one, is null */
+  SUREFILL_OCCLUDER_VERTICES,  /* two at one place of the mesh differ in X, Y or W [O4] */
   /* Of this interface alone. */
   SUREFILL_NULL_TARGET = 1000,     /* target is null */
   SUREFILL_NULL_VIEWPORT,          /* viewport is null */

@@ -66,6 +66,12 @@ std::vector<Mode> modes_of(const corpus::Scene& scene, const corpus::SceneDraw& 
       mode("culling box", draw.culling_box.has_value()),
       mode("viewport", draw.viewport.has_value()),
       mode("identifiers", identifiers),
+      mode("layers", scene.layers > 1),
+      mode("origin", scene.origin.x != 0 || scene.origin.y != 0),
+      mode("own places", !scene.sample_locations.empty()),
+      mode("winding", scene.more.winding && way.asked.winding),
+      mode("numbers", scene.more.numbers),
+      mode("bias", draw.depth_bias.has_value()),
       draw.grid ? mode("grid", corpus::kGridRoundingNames, draw.grid->rounding) : Mode{"grid", "none"}};
   for (const corpus::SceneAttribute& attribute : scene.attributes)
     modes.push_back(mode("attribute", corpus::kInterpolationNames, attribute.interpolation));
@@ -79,11 +85,13 @@ bool is_refused(const Mode& a, const Mode& b) {
   const auto refuses = [](const Mode& x, const Mode& y) {
     if (x.first == "fill rule")
       return (x.second == "closed" || x.second == "open") && y.first == "grid" && y.second != "none";
+    if (x == Mode{"layers", "yes"} && y == Mode{"depth write", "no"}) return true;
     if (x.first != "conservative" || x.second == "none") return false;
-    static const std::set<Mode> kPlain = {
-        {"outputs", "count"}, {"samples", "1"}, {"depth mode", "none"}, {"grid", "none"}, {"initial depth", "no"}};
-    static const std::set<std::string> kFields = {"outputs", "samples",       "depth mode",
-                                                  "grid",    "initial depth", "attribute"};
+    static const std::set<Mode> kPlain = {{"outputs", "count"}, {"samples", "1"},        {"depth mode", "none"},
+                                          {"grid", "none"},     {"initial depth", "no"}, {"layers", "no"},
+                                          {"own places", "no"}, {"winding", "no"}};
+    static const std::set<std::string> kFields = {"outputs",   "samples", "depth mode", "grid",   "initial depth",
+                                                  "attribute", "layers",  "own places", "winding"};
     return kFields.contains(y.first) && !kPlain.contains(y);
   };
   return refuses(a, b) || refuses(b, a);
@@ -91,8 +99,8 @@ bool is_refused(const Mode& a, const Mode& b) {
 
 corpus::Scene scene_of(unsigned long long seed, std::size_t category, Random& random) {
   const int size = random.one_in(4) ? 160 : 40;  // up to three tiles each way, or one
-  corpus::Scene scene =
-      properties::mixed_scene(properties::categories()[category], seed, size, random.one_in(8) ? 40 : 8);
+  const auto generator = random.one_in(2) ? properties::mixed_scene : properties::modes_scene;
+  corpus::Scene scene = generator(properties::categories()[category], seed, size, random.one_in(8) ? 40 : 8);
   for (corpus::SceneDraw& draw : scene.draws) {
     if (!draw.grid && random.one_in(5)) draw.fill_rule = random.one_in(2) ? FillRule::closed : FillRule::open;
     // The vertices themselves, where they are few, are a hull that holds the draw.

@@ -5,7 +5,7 @@ corpus/hashes.txt there, and prints a table.
 
 usage: elsewhere/run.py [--packages] [--reference | --one-file] [--scenes PROGRAM] [--frames N] NAME...
 
-A NAME is an architecture, a level (compiler and options for this machine), or one of the groups `architectures` and `levels`.
+A NAME is an architecture, a level (compiler and options for this machine), or one of the groups `architectures`, `levels` and `sanitizers`.
 --packages prints the Debian packages that they need, and does nothing else. --reference builds and runs the reference path alone,
 --one-file the reference engine in one file (reference/) alone.
 --scenes names surefill_hashed_scenes of this machine, if it is built already. --frames draws N random frames on both paths instead.
@@ -87,7 +87,15 @@ LEVELS |= {
     "clang++-19-flto": level("clang++-19", "-O2 -flto=thin", link="-fuse-ld=lld", packages=CLANG),
     "clang++-19-stdlib=libc++": level("clang++-19", "-O2 -stdlib=libc++", packages=[*CLANG, "libc++-19-dev", "libc++abi-19-dev"]),
 }
-MACHINES = ARCHITECTURES | LEVELS
+# The engine alone under sanitizers, which costs minutes where the whole suite under them costs hours.
+CHECKED = "-O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all"
+SANITIZERS = {
+    "g++-asan-ubsan": level("g++", f"{CHECKED} -fsanitize=address,undefined,float-cast-overflow"),
+    "g++-tsan": level("g++", f"{CHECKED} -fsanitize=thread"),
+    "clang++-19-asan-ubsan": level("clang++-19", f"{CHECKED} -fsanitize=address,undefined,float-cast-overflow,local-bounds",
+                                   packages=[*CLANG, "libclang-rt-19-dev"]),
+}
+MACHINES = ARCHITECTURES | LEVELS | SANITIZERS
 
 
 def called(command, log=None, **more):
@@ -225,7 +233,7 @@ def main():
     names = []
     for argument in arguments:
         if not argument.startswith("--"):
-            names += {"architectures": list(ARCHITECTURES), "levels": list(LEVELS)}.get(argument, [argument])
+            names += {"architectures": list(ARCHITECTURES), "levels": list(LEVELS), "sanitizers": list(SANITIZERS)}.get(argument, [argument])
     unknown = [n for n in names if n not in MACHINES] + sorted(flags - {"--packages", "--reference", "--one-file"})
     if unknown or not names or not given.get("--frames", "1").isdigit():
         print(__doc__ + f"\nknown: {' '.join(MACHINES)}\n" + (f"unknown: {' '.join(unknown)}" if unknown else ""), file=sys.stderr)

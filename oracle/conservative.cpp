@@ -92,8 +92,10 @@ bool cut(const Rational& from, const Rational& step, int low, int high, Rational
   return first <= *last;
 }
 
-// M7's S of the edge from m0 to m1, here also where it is one point: does it meet the rectangle? It is a segment where
-// both W > 0; where one of them is, it is the ray from that vertex, in the direction in which the other one pulls:
+}  // namespace
+
+// S is a segment where both W > 0; where one of them is, it is the ray from that vertex, in the direction in which the
+// other one pulls:
 // (X_0 + t X_1) / (W_0 + t W_1) - X_0 / W_0 = t (X_1 W_0 - X_0 W_1) / (W_0 (W_0 + t W_1)), of all lengths.
 bool edge_meets(const Position& m0, const Position& m1, const Rect& square) {
   if (m0.w <= 0 && m1.w <= 0) return false;
@@ -108,8 +110,6 @@ bool edge_meets(const Position& m0, const Position& m1, const Rect& square) {
   }
   return cut(x, dx, square.x0, square.x1, first, last) && cut(y, dy, square.y0, square.y1, first, last);
 }
-
-}  // namespace
 
 bool meets(const Cone& cone, const Rect& square, Conservative mode) {
   const std::array<Position, 3>& m = cone.positions();

@@ -14,6 +14,14 @@ namespace surefill::oracle {
 // is not `none`.
 bool meets(const Cone& cone, const Rect& square, Conservative mode);
 
+// M7's S of the edge from m0 to m1, here also where it is one point: does it meet the closed rectangle? Precondition: as
+// above.
+bool edge_meets(const Position& m0, const Position& m1, const Rect& square);
+
+// Calls visit(x, y) for the pixels of `rect` whose closed squares S of the edge meets.
+template <typename Visit>
+void visit_edge(const Position& m0, const Position& m1, const Rect& rect, const Visit& visit);
+
 // Calls visit(x, y) for the pixels of `rect` whose squares T meets so.
 template <typename Visit>
 void visit_conservative(const Cone& cone, const Rect& rect, Conservative mode, const Visit& visit);
@@ -42,6 +50,17 @@ void visit_touched(const Cone& cone, const Rect& rect, const Visit& visit) {
   if (rect.empty() || !meets(cone, rect, Conservative::touched)) return;
   if (rect.x1 - rect.x0 > 1 || rect.y1 - rect.y0 > 1) {
     for (const Rect& quarter : quarters(rect)) visit_touched(cone, quarter, visit);
+  } else {
+    visit(rect.x0, rect.y0);
+  }
+}
+
+// What meets a square meets the rectangles that hold it.
+template <typename Visit>
+void visit_edge(const Position& m0, const Position& m1, const Rect& rect, const Visit& visit) {
+  if (rect.empty() || !edge_meets(m0, m1, rect)) return;
+  if (rect.x1 - rect.x0 > 1 || rect.y1 - rect.y0 > 1) {
+    for (const Rect& quarter : quarters(rect)) visit_edge(m0, m1, quarter, visit);
   } else {
     visit(rect.x0, rect.y0);
   }

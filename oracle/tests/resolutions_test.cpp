@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// T7: what a safe buffer hides changes nothing at any resolution. Of the oracles' buffers; that each clause of O4 and O5 is
+// needed; and of views that T7 does not speak of.
+#include "properties/machinery/resolutions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <iostream>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "oracle/tests/safe_by_the_page.hpp"
+#include "properties/generators/occluders.hpp"
+
+namespace surefill::properties {
+namespace {
+
+using oracle::Wrong;
+
+#ifdef SUREFILL_CASES_SHARE
+constexpr int kShare = SUREFILL_CASES_SHARE;
+#else
+constexpr int kShare = 1;
+#endif
+
+// How many scenes of each category; the long run is asked for by name, and says what it did.
+bool is_long() {
+  return std::getenv("SUREFILL_SAFE_SCENES") != nullptr;
+}
+int asked(int scenes) {
+  const char* number = std::getenv("SUREFILL_SAFE_SCENES");
+  return number != nullptr ? std::atoi(number) : (scenes + kShare - 1) / kShare;
+}
+void report(const char* what, int scenes, const Sightings& seen) {
+  if (!is_long()) return;
+  std::cout << what << ": sampled, " << scenes << " scenes, seeds 0 .. of each category: " << seen.things
+            << " hidden things in " << seen.views << " views, " << seen.samples << " samples, one in 16 views has "
+            << seen.covered << " covered; " << seen.unfit << " views were unfit; 0 violations" << std::endl;
+}
+
+// A buffer by the page with one clause wrong.
+SafeBufferMaker wrong_buffer(Wrong wrong) {
+  return [wrong](const corpus::Scene& occluders) {
+    const corpus::Frame frame(occluders, {.count = false, .index = false, .depth = false, .barycentrics = false});
+    Target target;
+    target.width = occluders.width, target.height = occluders.height;
+    target.origin = occluders.origin, target.depth_test = occluders.depth_test;
+    SafeBuffer buffer;
+    buffer.depth = oracle::safe_depth_by_the_page(target, frame.draws(), {}, wrong);
+    buffer.box = [=, depth = buffer.depth](const OcclusionBox& box, bool equal) {
+      return oracle::answer_by_the_page(target, depth, box, {.safe = true, .equal_is_visible = equal}, wrong);
+    };
+    buffer.rectangle = [=, depth = buffer.depth](const OcclusionRectangle& rectangle, bool equal) {
+      return oracle::answer_by_the_page(target, depth, rectangle, {.safe = true, .equal_is_visible = equal}, wrong);
+    };
+    return buffer;
+  };
+}
+
+// Case n of a category: sizes from 1 x 1 to 9 x 7.
+corpus::Scene small_case(const OccluderCategory& category, std::uint64_t n) {
+  const int k = static_cast<int>(n % 1000);
+  return occluder_scene(category, n, 1 + k % 9, 1 + k / 9 % 7, 2 + k % 16);
+}
+
+TEST(Resolutions, SmallBuffers) {
+  Sightings seen;
+  const Effort effort;
+  int scenes = 0;
+  for (const OccluderCategory& category : occluder_categories()) {
+    for (int n = 0; n < asked(60); ++n, ++scenes) {
+      const auto seed = static_cast<std::uint64_t>(n);
+      const auto found = violation(small_case(category, seed), oracle_safe_buffer(), seed, effort, seen);
+      ASSERT_FALSE(found) << category.name << ' ' << n << ": " << *found;
+    }
+  }
+  report("small buffers", scenes, seen);
+  RecordProperty("views", std::to_string(seen.views));
+  EXPECT_GT(seen.covered * 8, seen.samples / 16);
+  EXPECT_GT(seen.views, seen.unfit);
+}
+
+// Of the oracles alone: their buffers, their pictures.
+TEST(Resolutions, Oracles) {
+  Sightings seen;
+  int scenes = 0;
+  for (const OccluderCategory& category : occluder_categories()) {
+    for (int n = 0; n < asked(6); ++n, ++scenes) {
+      const auto seed = 300'000 + static_cast<std::uint64_t>(n);
+      const bool first = n % 2 == 0;
+      const Effort effort{
+          .things = 10, .views = 4, .size = 24, .renderer = first ? oracle_renderer() : clipped_oracle_renderer()};
+      const auto found = violation(small_case(category, seed),
+                                   first ? oracle_safe_buffer() : clipped_oracle_safe_buffer(), seed, effort, seen);
+      ASSERT_FALSE(found) << category.name << ' ' << n << ": " << *found;
+    }
+  }
+  report("oracles alone", scenes, seen);
+}
+
+TEST(Resolutions, LargerBuffers) {
+  Sightings seen;
+  const Effort effort{.things = 60, .views = 24, .size = 640};
+  int scenes = 0;
+  constexpr std::array kSizes = {std::array{7, 5}, std::array{40, 22}, std::array{160, 90}};
+  for (const OccluderCategory& category : occluder_categories()) {
+    for (int n = 0; n < (asked(12) + 3) / 4; ++n, ++scenes) {
+      const auto seed = 500'000 + static_cast<std::uint64_t>(n);
+      const auto [width, height] = kSizes[is_long() ? static_cast<std::size_t>(n) % 3 : n % 3 == 2 ? 1 : 0];
+      const corpus::Scene scene = occluder_scene(category, seed, width, height, 16 << n % 5);
+      const auto found = violation(scene, oracle_safe_buffer(), seed, effort, seen);
+      ASSERT_FALSE(found) << category.name << ' ' << n << ": " << *found;
+    }
+  }
+  report("larger buffers", scenes, seen);
+}
+
+// S3: a viewport of 2^k times the size gives 2^k times X and Y, and so a view that T7 speaks of. A picture of 1920 x 1080,
+// and buffers of 240 x 135 down to 15 x 8.4375.
+TEST(Resolutions, Viewports) {
+  Sightings seen;
+  int scenes = 0;
+  for (const OccluderCategory& category : occluder_categories()) {
+    for (int n = 0; n < (asked(8) + 3) / 4; ++n, ++scenes) {
+      const auto seed = 700'000 + static_cast<std::uint64_t>(n);
+      const int k =
+          3 + static_cast<int>((seed + static_cast<std::uint64_t>(&category - occluder_categories().data())) % 5);
+      const float small = std::ldexp(1.0f, -k);
+      Viewport viewport{.x = n % 2 == 0 ? 0.0f : 24.0f, .y = n % 2 == 0 ? 0.0f : -8.0f, .width = 1920, .height = 1080};
+      Viewport of_buffer = viewport;
+      of_buffer.x *= small, of_buffer.y *= small, of_buffer.width *= small, of_buffer.height *= small;
+      corpus::Scene occluders = occluder_scene(category, seed, 2, 2, 32);
+      View view;
+      view.a = view.c = std::ldexp(1.0, k);
+      view.width = 1920, view.height = 1080;
+      for (corpus::SceneDraw& draw : occluders.draws) {
+        for (corpus::SceneVertex& v : draw.vertices) {
+          const ClipVertex clip{v.x - v.w, v.w - v.y, v.z, v.w};
+          Vertex in_buffer{}, in_picture{};
+          ASSERT_EQ(to_pixel(of_buffer, {&clip, 1}, {&in_buffer, 1}), Status::ok);
+          ASSERT_EQ(to_pixel(viewport, {&clip, 1}, {&in_picture, 1}), Status::ok);
+          v = {in_buffer.x, in_buffer.y, in_buffer.z, in_buffer.w, {}};
+          const std::optional<Vertex> expected = seen_in(view, in_buffer);
+          if (expected && std::isfinite(expected->x) && std::isfinite(expected->y)) {
+            EXPECT_EQ(in_picture.x, expected->x);
+            EXPECT_EQ(in_picture.y, expected->y);
+          }
+        }
+      }
+      occluders.width = static_cast<int>(std::ceil(of_buffer.width));
+      occluders.height = static_cast<int>(std::ceil(of_buffer.height));
+      Random r(seed);
+      const SafeBuffer buffer = oracle_safe_buffer()(occluders);
+      const std::vector<Hidden> hidden = hidden_things(r, occluders, buffer, false, 40);
+      const auto found = sight(r, occluders, view, hidden, engine_renderer(), seen);
+      ASSERT_FALSE(found) << category.name << ' ' << n << ": " << *found;
+    }
+  }
+  report("viewports", scenes, seen);
+  EXPECT_GT(seen.views * 2, static_cast<std::uint64_t>(scenes));
+}
+
+// --- Each clause is needed
+
+// The first case in which T7 is violated, of so many.
+std::optional<std::uint64_t> found_at(Wrong wrong, const OccluderCategory& category, std::uint64_t first,
+                                      std::uint64_t count) {
+  const SafeBufferMaker maker = wrong_buffer(wrong);
+  Sightings seen;
+  for (std::uint64_t n = first; n < first + count; ++n) {
+    if (violation(small_case(category, n), maker, n, {}, seen)) return n;
+  }
+  return std::nullopt;
+}
+
+// SUREFILL_SAFE_FAULTS=N looks for cases anew, N of each category, and prints them.
+TEST(Resolutions, SearchForFaults) {
+  const char* number = std::getenv("SUREFILL_SAFE_FAULTS");
+  if (number == nullptr) GTEST_SKIP() << "SUREFILL_SAFE_FAULTS is not set";
+  for (int w = 1; w < static_cast<int>(Wrong::last); ++w) {
+    const auto wrong = static_cast<Wrong>(w);
+    std::string text = std::string(name_of(wrong)) + ":";
+    bool any = false;
+    for (const OccluderCategory& category : occluder_categories()) {
+      const auto at = found_at(wrong, category, 0, static_cast<std::uint64_t>(std::atoi(number)));
+      if (at) text += std::string(" ") + category.name + " " + std::to_string(*at);
+      any = any || at;
+    }
+    std::cout << text << std::endl;
+    EXPECT_TRUE(any) << name_of(wrong);
+  }
+}
+
+}  // namespace
+}  // namespace surefill::properties

@@ -21,6 +21,7 @@
 
 #include "bench/inexact.hpp"
 #include "bench/llvmpipe.hpp"
+#include "bench/occlusion.hpp"
 #include "bench/workloads.hpp"
 #include "hwy/targets.h"
 #include "surefill/diagnostics.hpp"
@@ -295,6 +296,7 @@ void add_all() {
         [=](State& state) { surefill_draws(state, name, Output::depth, options); });
     add(std::string(name) + "/depth/llvmpipe", [=](State& state) { llvmpipe_draws(state, name, false); });
   }
+  add_occlusion(options.threads);
   if (!one) return;
   for (const char* const height : {"135", "270", "540", "1080"}) {
     const std::string name = std::string("spot/") + height;
@@ -330,13 +332,15 @@ void add_context() {
 }  // namespace
 }  // namespace surefill::bench
 
-// surefill_bench --draw NAME TIMES [OUTPUT [AVX2]]: see draw_only. --memory NAME SIZE THREADS: see measure_memory.
+// surefill_bench --draw NAME TIMES [OUTPUT [AVX2]]: see draw_only. --memory NAME SIZE THREADS: see measure_memory. --hidden:
+// see measure_hidden.
 int main(int argc, char** argv) {
   if (argc >= 4 && argc <= 6 && std::string(argv[1]) == "--draw")
     return surefill::bench::draw_only(argv[2], std::atoi(argv[3]), argc > 4 ? argv[4] : "depth",
                                       argc > 5 ? argv[5] : "");
   if (argc == 5 && std::string(argv[1]) == "--memory")
     return surefill::bench::measure_memory(argv[2], std::atoi(argv[3]), std::atoi(argv[4]));
+  if (argc == 2 && std::string(argv[1]) == "--hidden") return surefill::bench::measure_hidden();
   benchmark::Initialize(&argc, argv);
   if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
   surefill::bench::add_context();

@@ -144,7 +144,69 @@ class Call : CallMemory {
     surefill_occlusion_destroy(c);
   }
 
+  // Safe buffers: meshes of few places for the draws' vertices.
+  void check_safe_occlusion() {
+    const int width = size(), height = size();
+    const std::uint32_t test = enumerator(2);
+    surefill_safe_occlusion* c = nullptr;
+    SafeOcclusionBuffer cpp;
+    const surefill_status made = surefill_safe_occlusion_create(width, height, test, one_in(32) ? nullptr : &c);
+    const Status expected_made = cpp.resize(width, height, to_enum<DepthTest>(test));
+    if (made != SUREFILL_NULL_OCCLUSION && made != static_cast<surefill_status>(expected_made)) {
+      fail("surefill_safe_occlusion_create says " + text(made));
+    }
+    const int equal = one_in(2) ? 1 : 0;
+    surefill_safe_occlusion_set_equal_is_visible(c, equal), cpp.equal_is_visible(equal != 0);
+    if (wrong_draws_.empty() && draws_ != nullptr) draw_safely(c, cpp);
+    const float* depth = surefill_safe_occlusion_depth(c);
+    if ((depth == nullptr) != (c == nullptr)) fail("surefill_safe_occlusion_depth is null, or is not");
+    if (c != nullptr && std::memcmp(depth, cpp.depth().data(), cpp.depth().size_bytes()) != 0) {
+      fail("the depth of C and of C++ differ");
+    }
+    check_query<OcclusionBox, surefill_box>(c, cpp, surefill_safe_occlusion_query_boxes);
+    check_query<OcclusionRectangle, surefill_rectangle>(c, cpp, surefill_safe_occlusion_query_rectangles);
+    surefill_safe_occlusion_clear(c);
+    surefill_safe_occlusion_destroy(c);
+  }
+
  private:
+  void draw_safely(surefill_safe_occlusion* c, SafeOcclusionBuffer& cpp) {
+    std::vector<surefill_draw> draws = known_draws_;
+    std::vector<Occluder> occluders(draws.size());
+    std::vector<OccluderMesh> meshes(draws.size());
+    std::vector<surefill_occluder_mesh*> c_meshes(draws.size());
+    bool unused = false;  // is something there that safe draws have no use for?
+    for (std::size_t i = 0; i < draws.size(); ++i) {
+      surefill_draw& draw = draws[i];
+      draw.struct_size = sizeof draw;
+      if (!one_in(16)) draw.indices = nullptr, draw.index_count = 0;
+      if (!one_in(16)) draw.identifier_count = 0;
+      if (!one_in(16)) draw.attribute_count = 0;
+      draw.covered_count = draw.visible_count = 0;
+      unused |= draw.indices != nullptr || draw.index_count + draw.identifier_count + draw.attribute_count != 0;
+      const std::size_t count = one_in(16) ? in_.below(4) : std::min<std::size_t>(draw.vertex_count, 64);
+      std::vector<float> positions(4 * count);
+      for (float& place : positions) place = one_in(32) ? real() : static_cast<float>(in_.below(3));
+      std::vector<std::uint32_t> indices(3 * in_.below(12));
+      for (std::uint32_t& index : indices) index = in_.below(static_cast<std::uint32_t>(count + (one_in(64) ? 1 : 0)));
+      const surefill_status made =
+          surefill_occluder_mesh_create(positions.data(), count, 16, indices.data(), indices.size(), &c_meshes[i]);
+      const Status expected = meshes[i].prepare(positions, indices, 4);
+      if (made != static_cast<surefill_status>(expected)) fail("surefill_occluder_mesh_create says " + text(made));
+      occluders[i].state() = cpp_draws_[i].state(), occluders[i].vertices = cpp_draws_[i].vertices;
+      occluders[i].mesh = c_meshes[i] == nullptr ? nullptr : &meshes[i];
+    }
+    const surefill_status drawn =
+        surefill_safe_occlusion_draw(c, c_meshes.data(), draws.data(), draws.size(), options_);
+    if (c == nullptr || unused || !wrong_options_.empty()) {
+      if (drawn == SUREFILL_OK && (c == nullptr || unused)) fail("surefill_safe_occlusion_draw accepts what is wrong");
+    } else {
+      const auto expected = static_cast<surefill_status>(cpp.draw(occluders, cpp_options_));
+      if (drawn != expected) fail("surefill_safe_occlusion_draw says " + text(drawn));
+    }
+    for (surefill_occluder_mesh* mesh : c_meshes) surefill_occluder_mesh_destroy(mesh);
+  }
+
   void build_target() {
     surefill_target& t = known_target_;
     t.struct_size = struct_size(kLeastTarget, sizeof t, SUREFILL_TARGET_STRUCT_SIZE, &wrong_);
@@ -509,8 +571,8 @@ class Call : CallMemory {
   }
 
   // Boxes or rectangles, asked of C and of C++.
-  template <typename CppBox, typename CBox, typename Query>
-  void check_query(const surefill_occlusion* c, const OcclusionBuffer& cpp, Query query) {
+  template <typename CppBox, typename CBox, typename Handle, typename Buffer, typename Query>
+  void check_query(const Handle* c, const Buffer& cpp, Query query) {
     const std::size_t count = in_.below(3);
     std::vector<CBox> boxes(count);
     std::vector<CppBox> cpp_boxes(count);
@@ -627,6 +689,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_small_calls(in);
   } else if (kind % 8 == 6) {
     Call(rest).check_occlusion();
+  } else if (kind % 8 == 4) {
+    Call(rest).check_safe_occlusion();
   } else if (kind % 8 == 5) {
     Call(rest).check_stream();
   } else {

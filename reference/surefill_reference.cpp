@@ -75,6 +75,157 @@ struct ContractionProbe {
 
 }  // namespace surefill_reference
 
+// ---------------------------------------------------------------- src/float_environment.hpp
+//
+// The floating-point state that the engine's proofs assume (B4): round to nearest, ties to even, subnormals kept on
+// input and output, no traps. Set on entry of every public call, also for checks that look at floats; on exit the
+// caller gets its own back, exception flags included.
+
+
+
+
+namespace surefill_reference {
+
+// A thread's modes, traps and exception flags.
+class FloatState {
+ public:
+#if defined(__SSE2__)
+
+  static FloatState now() {
+    return FloatState(_mm_getcsr());
+  }
+  static FloatState of_engine() {
+    return FloatState(0x1F80);
+  }
+  void set() const {
+    _mm_setcsr(control_);
+  }
+  unsigned flags() const {
+    return control_ & 0x3F;
+  }
+  FloatState with_flags(unsigned flags) const {
+    return FloatState(control_ | flags);
+  }
+
+ private:
+  explicit FloatState(unsigned control) : control_(control) {}
+  unsigned control_;  // MXCSR
+
+#elif defined(__aarch64__)
+
+  static FloatState now() {
+    FloatState state;
+    asm volatile("mrs %0, fpcr" : "=r"(state.control_));
+    asm volatile("mrs %0, fpsr" : "=r"(state.status_));
+    return state;
+  }
+  static FloatState of_engine() {
+    return {};
+  }
+  void set() const {
+    asm volatile("msr fpcr, %0" : : "r"(control_));
+    asm volatile("msr fpsr, %0" : : "r"(status_));
+  }
+  unsigned flags() const {
+    return static_cast<unsigned>(status_);
+  }
+  FloatState with_flags(unsigned flags) const {
+    FloatState state = *this;
+    state.status_ |= flags;
+    return state;
+  }
+
+ private:
+  std::uint64_t control_ = 0, status_ = 0;  // FPCR, FPSR
+
+#else  // standard C++ has to do: it knows the rounding mode, and FE_DFL_ENV has subnormals
+
+  static FloatState now() {
+    FloatState state;
+    std::fegetenv(&state.environment_);
+    state.flags_ = static_cast<unsigned>(std::fetestexcept(FE_ALL_EXCEPT));
+    return state;
+  }
+  static FloatState of_engine() {
+    FloatState before = now(), state;
+    std::fesetenv(FE_DFL_ENV);
+    std::fegetenv(&state.environment_);
+    before.set();
+    return state;
+  }
+  void set() const {
+    std::fesetenv(&environment_);
+    std::feraiseexcept(static_cast<int>(flags_));
+  }
+  unsigned flags() const {
+    return flags_;
+  }
+  FloatState with_flags(unsigned flags) const {
+    FloatState state = *this;
+    state.flags_ |= flags;
+    return state;
+  }
+
+ private:
+  std::fenv_t environment_{};
+  unsigned flags_ = 0;
+
+#endif
+};
+
+// The engine's state on this thread while it lives. Compilers know nothing of it and move arithmetic across: what
+// needs the state is in a function that is not inlined.
+class FloatEnvironment {
+ public:
+  FloatEnvironment() : before_(FloatState::now()) { FloatState::of_engine().set(); }
+  ~FloatEnvironment() { before_.with_flags(raised_.load(std::memory_order_relaxed)).set(); }
+  FloatEnvironment(const FloatEnvironment&) = delete;
+  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
+
+  // Runs the caller's code in the state that was there before, on this thread or another one in the engine's state. The
+  // flags that it raises are among those given back.
+  template <typename Code>
+  void leave_for(const Code& code) {
+    before_.set();
+    code();
+    const unsigned flags = FloatState::now().flags();
+    FloatState::of_engine().set();
+    if ((flags & ~raised_.load(std::memory_order_relaxed)) != 0) raised_.fetch_or(flags, std::memory_order_relaxed);
+  }
+
+ private:
+  const FloatState before_;
+  std::atomic<unsigned> raised_{0};
+};
+
+}  // namespace surefill_reference
+
+// ---------------------------------------------------------------- src/callers_code.hpp
+namespace surefill_reference {
+
+// The caller's code, as the engine calls it: in the caller's floating-point state, on whichever thread.
+struct CallersCode {
+  FloatEnvironment& environment;
+  Executor executor;
+  CoverageVisitor visitor;
+
+  Options with_executor(Options options) {
+    if (executor.run != nullptr) options.executor = {run_tasks, this};
+    return options;
+  }
+
+  static void run_tasks(void* context, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
+    CallersCode& own = *static_cast<CallersCode*>(context);
+    own.environment.leave_for([&] { own.executor.run(own.executor.context, items, task, argument); });
+  }
+  static void visit_blocks(void* context, std::span<const CoverageBlock> blocks) {
+    CallersCode& own = *static_cast<CallersCode*>(context);
+    own.environment.leave_for([&] { own.visitor.visit(own.visitor.context, blocks); });
+  }
+};
+
+}  // namespace surefill_reference
+
 // ---------------------------------------------------------------- src/facts.hpp
 //
 // What a target and a draw mean, each fact once, for both paths: regions, samples, outputs, indices, strides, culling,
@@ -232,131 +383,6 @@ inline bool is_finite(const Draw& draw, std::uint32_t position) {
   }
   return attributes_are_finite(draw, position);
 }
-
-}  // namespace surefill_reference
-
-// ---------------------------------------------------------------- src/float_environment.hpp
-//
-// The floating-point state that the engine's proofs assume (B4): round to nearest, ties to even, subnormals kept on
-// input and output, no traps. Set on entry of every public call, also for checks that look at floats; on exit the
-// caller gets its own back, exception flags included.
-
-
-
-
-namespace surefill_reference {
-
-// A thread's modes, traps and exception flags.
-class FloatState {
- public:
-#if defined(__SSE2__)
-
-  static FloatState now() {
-    return FloatState(_mm_getcsr());
-  }
-  static FloatState of_engine() {
-    return FloatState(0x1F80);
-  }
-  void set() const {
-    _mm_setcsr(control_);
-  }
-  unsigned flags() const {
-    return control_ & 0x3F;
-  }
-  FloatState with_flags(unsigned flags) const {
-    return FloatState(control_ | flags);
-  }
-
- private:
-  explicit FloatState(unsigned control) : control_(control) {}
-  unsigned control_;  // MXCSR
-
-#elif defined(__aarch64__)
-
-  static FloatState now() {
-    FloatState state;
-    asm volatile("mrs %0, fpcr" : "=r"(state.control_));
-    asm volatile("mrs %0, fpsr" : "=r"(state.status_));
-    return state;
-  }
-  static FloatState of_engine() {
-    return {};
-  }
-  void set() const {
-    asm volatile("msr fpcr, %0" : : "r"(control_));
-    asm volatile("msr fpsr, %0" : : "r"(status_));
-  }
-  unsigned flags() const {
-    return static_cast<unsigned>(status_);
-  }
-  FloatState with_flags(unsigned flags) const {
-    FloatState state = *this;
-    state.status_ |= flags;
-    return state;
-  }
-
- private:
-  std::uint64_t control_ = 0, status_ = 0;  // FPCR, FPSR
-
-#else  // standard C++ has to do: it knows the rounding mode, and FE_DFL_ENV has subnormals
-
-  static FloatState now() {
-    FloatState state;
-    std::fegetenv(&state.environment_);
-    state.flags_ = static_cast<unsigned>(std::fetestexcept(FE_ALL_EXCEPT));
-    return state;
-  }
-  static FloatState of_engine() {
-    FloatState before = now(), state;
-    std::fesetenv(FE_DFL_ENV);
-    std::fegetenv(&state.environment_);
-    before.set();
-    return state;
-  }
-  void set() const {
-    std::fesetenv(&environment_);
-    std::feraiseexcept(static_cast<int>(flags_));
-  }
-  unsigned flags() const {
-    return flags_;
-  }
-  FloatState with_flags(unsigned flags) const {
-    FloatState state = *this;
-    state.flags_ |= flags;
-    return state;
-  }
-
- private:
-  std::fenv_t environment_{};
-  unsigned flags_ = 0;
-
-#endif
-};
-
-// The engine's state on this thread while it lives. Compilers know nothing of it and move arithmetic across: what
-// needs the state is in a function that is not inlined.
-class FloatEnvironment {
- public:
-  FloatEnvironment() : before_(FloatState::now()) { FloatState::of_engine().set(); }
-  ~FloatEnvironment() { before_.with_flags(raised_.load(std::memory_order_relaxed)).set(); }
-  FloatEnvironment(const FloatEnvironment&) = delete;
-  FloatEnvironment& operator=(const FloatEnvironment&) = delete;
-
-  // Runs the caller's code in the state that was there before, on this thread or another one in the engine's state. The
-  // flags that it raises are among those given back.
-  template <typename Code>
-  void leave_for(const Code& code) {
-    before_.set();
-    code();
-    const unsigned flags = FloatState::now().flags();
-    FloatState::of_engine().set();
-    if ((flags & ~raised_.load(std::memory_order_relaxed)) != 0) raised_.fetch_or(flags, std::memory_order_relaxed);
-  }
-
- private:
-  const FloatState before_;
-  std::atomic<unsigned> raised_{0};
-};
 
 }  // namespace surefill_reference
 
@@ -570,6 +596,27 @@ float round_quotient(const Expansion<kNumerator>& numerator, const Expansion<kDe
     return rest.sign() * denominator.sign();
   });
   return nearest + 0.0f;
+}
+
+// The least float32 not below numerator / denominator; +0 for 0, +infinity beyond range. The denominator is not 0.
+template <std::size_t kNumerator, std::size_t kDenominator>
+float round_up_quotient(const Expansion<kNumerator>& numerator, const Expansion<kDenominator>& denominator) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  // Is the quotient above a float?
+  const auto above = [&](float value) {
+    if (std::isinf(value)) return value < 0;
+    Expansion<kNumerator + 2 * kDenominator> rest;
+    for (int i = 0; i < numerator.size(); ++i) rest.add(numerator.term(i));
+    rest.add_scaled(denominator, -static_cast<double>(value));
+    return rest.sign() * denominator.sign() > 0;
+  };
+  float rounded = static_cast<float>(numerator.estimate() / denominator.estimate());  // a neighbour at most off
+  while (above(rounded)) rounded = std::nextafter(rounded, kInfinity);
+  for (;;) {
+    const float below = std::nextafter(rounded, -kInfinity);
+    if (above(below)) return rounded + 0.0f;
+    rounded = below;
+  }
 }
 
 }  // namespace surefill_reference
@@ -2693,27 +2740,6 @@ constexpr SampleLocation kLocations4[] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};
 constexpr SampleLocation kLocations8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
 constexpr SampleLocation kLocations16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
                                            {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
-
-// The caller's code, as the engine calls it: in the caller's floating-point state, on whichever thread.
-struct CallersCode {
-  FloatEnvironment& environment;
-  Executor executor;
-  CoverageVisitor visitor;
-
-  Options with_executor(Options options) {
-    if (executor.run != nullptr) options.executor = {run_tasks, this};
-    return options;
-  }
-
-  static void run_tasks(void* context, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
-    CallersCode& own = *static_cast<CallersCode*>(context);
-    own.environment.leave_for([&] { own.executor.run(own.executor.context, items, task, argument); });
-  }
-  static void visit_blocks(void* context, std::span<const CoverageBlock> blocks) {
-    CallersCode& own = *static_cast<CallersCode*>(context);
-    own.environment.leave_for([&] { own.visitor.visit(own.visitor.context, blocks); });
-  }
-};
 
 // Does somebody ask for an output of samples or of triangles?
 bool asks_for_outputs(const Target& target, std::span<const Draw> draws) {

@@ -23,6 +23,14 @@ struct surefill_occlusion {
   surefill::OcclusionBuffer buffer;
 };
 
+struct surefill_occluder_mesh {
+  surefill::OccluderMesh mesh;
+};
+
+struct surefill_safe_occlusion {
+  surefill::SafeOcclusionBuffer buffer;
+};
+
 namespace surefill {
 namespace {
 
@@ -123,7 +131,8 @@ class Arguments {
   }
 
   // The occlusion buffer, whose draws are to be read.
-  void read_occlusion(const OcclusionBuffer& buffer) {
+  template <typename Buffer>
+  void read_occlusion(const Buffer& buffer) {
     const std::span<const float> depth = buffer.depth();
     target.width = buffer.width(), target.height = buffer.height();
     target.initial_depth = target.depth = {const_cast<float*>(depth.data()), depth.size()};
@@ -312,9 +321,46 @@ class Arguments {
   bool overlaps_ = false;  // an output overlaps one of the originals
 };
 
-template <typename Box, typename CBox>
-surefill_status query(const surefill_occlusion* occlusion, const CBox* boxes, std::size_t count,
-                      std::uint8_t* answers) {
+// One with a size, into *made.
+template <typename Handle>
+surefill_status create_occlusion(int32_t width, int32_t height, uint32_t depth_test, Handle** made) {
+  if (made == nullptr) return SUREFILL_NULL_OCCLUSION;
+  std::unique_ptr<Handle> handle(new (std::nothrow) Handle);
+  if (handle == nullptr) return SUREFILL_OUT_OF_MEMORY;
+  const Status status = handle->buffer.resize(width, height, enumerator<DepthTest>(depth_test));
+  if (status == Status::ok) *made = handle.release();
+  return to_c(status);
+}
+
+// What a draw of a safe buffer takes from its mesh, or has no use for.
+surefill_status check_unused(const Draw& draw) {
+  if (draw.indices.data() != nullptr || !draw.indices.empty()) return SUREFILL_DRAW_INDICES;
+  if (!draw.identifiers.empty()) return SUREFILL_DRAW_IDENTIFIERS;
+  if (!draw.attributes.empty()) return SUREFILL_DRAW_ATTRIBUTES;
+  if (!draw.covered.empty()) return SUREFILL_DRAW_COVERED;
+  return draw.visible.empty() ? SUREFILL_OK : SUREFILL_DRAW_VISIBLE;
+}
+
+// The draws with their meshes, or a null list where that of the draws is.
+surefill_status occluders_of(std::span<const Draw> draws, const surefill_occluder_mesh* const* meshes,
+                             std::unique_ptr<Occluder[]>& list, std::span<const Occluder>& occluders) {
+  occluders = {static_cast<const Occluder*>(nullptr), draws.size()};
+  if (draws.data() == nullptr) return SUREFILL_OK;
+  if (meshes == nullptr) return SUREFILL_OCCLUDER_MESH;
+  list.reset(new (std::nothrow) Occluder[draws.size()]);
+  if (list == nullptr) return SUREFILL_OUT_OF_MEMORY;
+  for (std::size_t i = 0; i < draws.size(); ++i) {
+    if (const surefill_status status = check_unused(draws[i]); status != SUREFILL_OK) return status;
+    list[i].state() = draws[i].state();
+    list[i].mesh = meshes[i] == nullptr ? nullptr : &meshes[i]->mesh;
+    list[i].vertices = draws[i].vertices;
+  }
+  occluders = {list.get(), draws.size()};
+  return SUREFILL_OK;
+}
+
+template <typename Box, typename CBox, typename Handle>
+surefill_status query(const Handle* occlusion, const CBox* boxes, std::size_t count, std::uint8_t* answers) {
   if (occlusion == nullptr) return SUREFILL_NULL_OCCLUSION;
   return to_c(occlusion->buffer.query(std::span(reinterpret_cast<const Box*>(boxes), count),
                                       std::span(reinterpret_cast<Occlusion*>(answers), count)));
@@ -428,12 +474,7 @@ surefill_status surefill_visit_coverage(const surefill_target* target, const sur
 
 surefill_status surefill_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
                                           surefill_occlusion** occlusion) {
-  if (occlusion == nullptr) return SUREFILL_NULL_OCCLUSION;
-  std::unique_ptr<surefill_occlusion> made(new (std::nothrow) surefill_occlusion);
-  if (made == nullptr) return SUREFILL_OUT_OF_MEMORY;
-  const Status status = made->buffer.resize(width, height, enumerator<DepthTest>(depth_test));
-  if (status == Status::ok) *occlusion = made.release();
-  return to_c(status);
+  return create_occlusion(width, height, depth_test, occlusion);
 }
 
 surefill_context* surefill_context_create(void) {
@@ -478,4 +519,78 @@ surefill_status surefill_occlusion_query_rectangles(const surefill_occlusion* oc
 
 const float* surefill_occlusion_depth(const surefill_occlusion* occlusion) {
   return occlusion == nullptr ? nullptr : occlusion->buffer.depth().data();
+}
+
+void surefill_occlusion_set_equal_is_visible(surefill_occlusion* occlusion, int32_t value) {
+  if (occlusion != nullptr) occlusion->buffer.equal_is_visible(value != 0);
+}
+
+surefill_status surefill_occluder_mesh_create(const float* positions, size_t vertex_count, size_t position_stride,
+                                              const uint32_t* indices, size_t index_count,
+                                              surefill_occluder_mesh** mesh) {
+  if (mesh == nullptr) return SUREFILL_OCCLUDER_MESH;
+  const std::size_t stride = position_stride == 0 ? 3 * sizeof(float) : position_stride;
+  if (stride < 3 * sizeof(float) || stride % sizeof(float) != 0 || stride / sizeof(float) > UINT32_MAX ||
+      vertex_count > static_cast<std::size_t>(PTRDIFF_MAX) / stride) {
+    return SUREFILL_OCCLUDER_POSITIONS;
+  }
+  const std::size_t floats = vertex_count == 0 ? 0 : (vertex_count - 1) * (stride / sizeof(float)) + 3;
+  std::unique_ptr<surefill_occluder_mesh> made(new (std::nothrow) surefill_occluder_mesh);
+  if (made == nullptr) return SUREFILL_OUT_OF_MEMORY;
+  const Status status = made->mesh.prepare({positions, floats}, {indices, index_count},
+                                           static_cast<std::uint32_t>(stride / sizeof(float)));
+  if (status == Status::ok) *mesh = made.release();
+  return to_c(status);
+}
+
+void surefill_occluder_mesh_destroy(surefill_occluder_mesh* mesh) {
+  delete mesh;
+}
+
+surefill_status surefill_safe_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
+                                               surefill_safe_occlusion** occlusion) {
+  return create_occlusion(width, height, depth_test, occlusion);
+}
+
+void surefill_safe_occlusion_destroy(surefill_safe_occlusion* occlusion) {
+  delete occlusion;
+}
+
+void surefill_safe_occlusion_clear(surefill_safe_occlusion* occlusion) {
+  if (occlusion != nullptr) occlusion->buffer.clear();
+}
+
+surefill_status surefill_safe_occlusion_draw(surefill_safe_occlusion* occlusion,
+                                             const surefill_occluder_mesh* const* meshes, const surefill_draw* draws,
+                                             size_t draw_count, const surefill_options* options) {
+  if (occlusion == nullptr) return SUREFILL_NULL_OCCLUSION;
+  Arguments arguments(nullptr);
+  arguments.read_occlusion(occlusion->buffer);
+  std::unique_ptr<Occluder[]> list;
+  std::span<const Occluder> occluders;
+  surefill_status status = arguments.read_draws(draws, draw_count);
+  if (status == SUREFILL_OK) status = occluders_of(arguments.draws, meshes, list, occluders);
+  if (status == SUREFILL_OUT_OF_MEMORY) occlusion->buffer.clear();
+  if (status == SUREFILL_OK) status = arguments.read_options(options, nullptr);
+  if (status != SUREFILL_OK) return status;
+  return arguments.run(nullptr, [&](Statistics*, const Options& o) { return occlusion->buffer.draw(occluders, o); });
+}
+
+surefill_status surefill_safe_occlusion_query_boxes(const surefill_safe_occlusion* occlusion, const surefill_box* boxes,
+                                                    size_t count, uint8_t* answers) {
+  return query<OcclusionBox>(occlusion, boxes, count, answers);
+}
+
+surefill_status surefill_safe_occlusion_query_rectangles(const surefill_safe_occlusion* occlusion,
+                                                         const surefill_rectangle* rectangles, size_t count,
+                                                         uint8_t* answers) {
+  return query<OcclusionRectangle>(occlusion, rectangles, count, answers);
+}
+
+const float* surefill_safe_occlusion_depth(const surefill_safe_occlusion* occlusion) {
+  return occlusion == nullptr ? nullptr : occlusion->buffer.depth().data();
+}
+
+void surefill_safe_occlusion_set_equal_is_visible(surefill_safe_occlusion* occlusion, int32_t value) {
+  if (occlusion != nullptr) occlusion->buffer.equal_is_visible(value != 0);
 }

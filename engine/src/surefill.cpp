@@ -7,6 +7,7 @@
 
 #include "arguments.hpp"
 #include "build_check.hpp"
+#include "callers_code.hpp"
 #include "facts.hpp"
 #include "fast/frame.hpp"
 #include "fast/memory.hpp"
@@ -28,27 +29,6 @@ constexpr SampleLocation kLocations4[] = {{6, 2}, {14, 6}, {2, 10}, {10, 14}};
 constexpr SampleLocation kLocations8[] = {{9, 5}, {7, 11}, {13, 9}, {5, 3}, {3, 13}, {1, 7}, {11, 15}, {15, 1}};
 constexpr SampleLocation kLocations16[] = {{9, 9},  {7, 5}, {5, 10}, {12, 7}, {3, 6}, {10, 13}, {13, 11}, {11, 3},
                                            {6, 14}, {8, 1}, {4, 2},  {2, 12}, {0, 8}, {15, 4},  {14, 15}, {1, 0}};
-
-// The caller's code, as the engine calls it: in the caller's floating-point state, on whichever thread.
-struct CallersCode {
-  FloatEnvironment& environment;
-  Executor executor;
-  CoverageVisitor visitor;
-
-  Options with_executor(Options options) {
-    if (executor.run != nullptr) options.executor = {run_tasks, this};
-    return options;
-  }
-
-  static void run_tasks(void* context, std::size_t items, void (*task)(void*, std::size_t), void* argument) {
-    CallersCode& own = *static_cast<CallersCode*>(context);
-    own.environment.leave_for([&] { own.executor.run(own.executor.context, items, task, argument); });
-  }
-  static void visit_blocks(void* context, std::span<const CoverageBlock> blocks) {
-    CallersCode& own = *static_cast<CallersCode*>(context);
-    own.environment.leave_for([&] { own.visitor.visit(own.visitor.context, blocks); });
-  }
-};
 
 // Does somebody ask for an output of samples or of triangles?
 bool asks_for_outputs(const Target& target, std::span<const Draw> draws) {

@@ -23,12 +23,14 @@ while triangles are drawn.
 from . import _library
 from ._cameras import opencv, opengl, orthographic, to_pixel, top_down
 from ._draws import Draw, Grid
-from ._frames import BLOCK, Context, OcclusionBuffer, Statistics, visit_coverage
+from ._frames import BLOCK, Context, Statistics, visit_coverage
+from ._occlusion import OccluderMesh, OcclusionBuffer, SafeOcclusionBuffer
 from ._library import sample_locations
 from ._raster import NO_TRIANGLE, Raster, coverage, interpolate, rasterize, render
 from .serving import Scene, SceneAttribute, SceneDraw, Unsupported, each_triangle, serve
 
 __version__: str = _library.version().decode()
-__all__ = ["BLOCK", "NO_TRIANGLE", "Context", "Draw", "Grid", "OcclusionBuffer", "Raster", "Statistics", "coverage",
+__all__ = ["BLOCK", "NO_TRIANGLE", "Context", "Draw", "Grid", "OccluderMesh", "OcclusionBuffer", "Raster", "SafeOcclusionBuffer",
+           "Statistics", "coverage",
            "interpolate", "opencv", "opengl", "orthographic", "rasterize", "render", "sample_locations", "to_pixel", "top_down", "visit_coverage",
            "Scene", "SceneAttribute", "SceneDraw", "Unsupported", "each_triangle", "serve"]

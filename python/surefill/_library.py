@@ -41,7 +41,7 @@ _ARGUMENTS = {
     21: "fill_rule", 22: "front_face", 23: "cull", 24: "depth_mode", 25: "conservative", 26: "grid", 27: "depth_range",
     28: "threads", 30: "boxes", 31: "answers", 34: "clip", 35: "outputs", 36: "origin", 37: "sample_locations", 38: "layers",
     39: "outputs", 40: "depth_bias", 41: "outputs", 42: "outputs",
-    43: "primitive", 44: "width",
+    43: "primitive", 44: "width", 47: "points", 48: "meshes", 49: "positions",
 }
 
 
@@ -130,14 +130,20 @@ visit_coverage = _function("visit_coverage", ctypes.c_int, POINTER(Target), POIN
                            POINTER(Options), POINTER(Statistics))
 context_create = _function("context_create", c_void_p)
 context_destroy = _function("context_destroy", None, c_void_p)
-occlusion_create = _function("occlusion_create", ctypes.c_int, c_int32, c_int32, c_uint32, POINTER(c_void_p))
-occlusion_destroy = _function("occlusion_destroy", None, c_void_p)
-occlusion_clear = _function("occlusion_clear", None, c_void_p)
+occluder_mesh_create = _function("occluder_mesh_create", ctypes.c_int, c_void_p, c_size_t, c_size_t, c_void_p, c_size_t,
+                                 POINTER(c_void_p))
+occluder_mesh_destroy = _function("occluder_mesh_destroy", None, c_void_p)
 occlusion_draw = _function("occlusion_draw", ctypes.c_int, c_void_p, POINTER(Draw), c_size_t, POINTER(Options),
                            POINTER(Statistics))
-occlusion_query_boxes = _function("occlusion_query_boxes", ctypes.c_int, c_void_p, c_void_p, c_size_t, c_void_p)
-occlusion_query_rectangles = _function("occlusion_query_rectangles", ctypes.c_int, c_void_p, c_void_p, c_size_t, c_void_p)
-occlusion_depth = _function("occlusion_depth", c_void_p, c_void_p)
+safe_occlusion_draw = _function("safe_occlusion_draw", ctypes.c_int, c_void_p, POINTER(c_void_p), POINTER(Draw), c_size_t,
+                                POINTER(Options))
+for _kind in ("occlusion_", "safe_occlusion_"):  # what both buffers have
+    for _name, _result, _types in (
+            ("create", ctypes.c_int, (c_int32, c_int32, c_uint32, POINTER(c_void_p))), ("destroy", None, (c_void_p,)),
+            ("clear", None, (c_void_p,)), ("query_boxes", ctypes.c_int, (c_void_p, c_void_p, c_size_t, c_void_p)),
+            ("query_rectangles", ctypes.c_int, (c_void_p, c_void_p, c_size_t, c_void_p)), ("depth", c_void_p, (c_void_p,)),
+            ("set_equal_is_visible", None, (c_void_p, c_int32))):
+        globals()[_kind + _name] = _function(_kind + _name, _result, *_types)
 
 
 def check(status: int) -> None:

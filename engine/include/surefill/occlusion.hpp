@@ -104,7 +104,7 @@ class SUREFILL_API OccluderMesh {
   // indices[3t + 1], indices[3t + 2]. Positions may be in any space of the model: only their equality matters (-0 equals
   // 0, a NaN equals nothing). Nothing of the arguments is kept. occluder_positions: null but not empty, a stride under 3,
   // an incomplete position at the end, or 2^32 vertices and more. draw_indices, draw_index_out_of_range, out_of_memory:
-  // as in render; then the mesh is as it was. 2^30 triangles and more are refused.
+  // as in render; then the mesh is as it was. 2^29 triangles and more are refused.
   Status prepare(std::span<const float> positions, std::span<const std::uint32_t> indices,
                  std::uint32_t stride = 3) noexcept;
 

@@ -166,9 +166,9 @@ typedef enum surefill_grid_rounding {
 } surefill_grid_rounding;
 /* Who draws; both give the same image. */
 typedef enum surefill_path { SUREFILL_PATH_AUTOMATIC = 0, SUREFILL_PATH_REFERENCE } surefill_path;
-/* The answer to an occlusion query [O3]. */
+/* The answer to an occlusion query [O3, O5]. */
 typedef enum surefill_answer {
-  SUREFILL_OUTSIDE = 0, /* reaches no sample of the target */
+  SUREFILL_OUTSIDE = 0, /* reaches no sample of the target; of a safe buffer: not even its area */
   SUREFILL_HIDDEN,      /* would change no sample */
   SUREFILL_VISIBLE      /* may be seen */
 } surefill_answer;
@@ -347,6 +347,14 @@ typedef struct surefill_rectangle {
   float x0, y0, x1, y1, nearest_depth;
 } surefill_rectangle;
 
+/* Triangles that hide, prepared once for all views and safe buffers: which vertices lie at one place, and which triangles
+ * share an edge there. [O4] */
+typedef struct surefill_occluder_mesh surefill_occluder_mesh;
+
+/* The depth that occluders have at least, in each pixel's whole square, at whatever resolution they are drawn: a small
+ * buffer that is right about every larger picture. [O4, T7] */
+typedef struct surefill_safe_occlusion surefill_safe_occlusion;
+
 /* The library's version, "major.minor.patch" (semver.org). Never NULL. */
 SUREFILL_API const char* surefill_version(void);
 
@@ -417,6 +425,61 @@ SUREFILL_API surefill_status surefill_occlusion_query_rectangles(const surefill_
 
 /* The stored depth of pixel (x, y) at [y * width + x]; NULL for NULL. Valid until the buffer is destroyed. */
 SUREFILL_API const float* surefill_occlusion_depth(const surefill_occlusion* occlusion);
+
+/* Whether equal depth hides [O6]: 0, as at first, it does; else a box is hidden only if its nearest depth is farther than all
+ * of the stored depths, and so no occluder alone hides a box that holds it, though its face be parallel to the screen.
+ * Who draws only what is not hidden wants that of objects that are occluders, too. NULL is allowed. */
+SUREFILL_API void surefill_occlusion_set_equal_is_visible(surefill_occlusion* occlusion, int32_t value);
+
+/* Prepares triangles into *mesh: vertex v is three floats at positions + v * position_stride bytes (at least 12, a multiple
+ * of 4; 0 means 12), in any space of the model; triangle t has the vertices indices[3t], indices[3t + 1], indices[3t + 2].
+ * Only the equality of positions matters; a T-junction hides nothing along it. Nothing of the arguments is kept. Errors:
+ * OCCLUDER_MESH, OCCLUDER_POSITIONS, DRAW_INDICES, DRAW_INDEX_OUT_OF_RANGE, OUT_OF_MEMORY, BAD_BUILD. */
+SUREFILL_API surefill_status surefill_occluder_mesh_create(const float* positions, size_t vertex_count,
+                                                           size_t position_stride, const uint32_t* indices,
+                                                           size_t index_count, surefill_occluder_mesh** mesh);
+
+/* Frees it, while no call uses it. NULL is allowed. */
+SUREFILL_API void surefill_occluder_mesh_destroy(surefill_occluder_mesh* mesh);
+
+/* As surefill_occlusion_create. Make it a power of two smaller than the picture: what a safe buffer calls hidden changes no
+ * sample of any larger picture of the same view [T7]. */
+SUREFILL_API surefill_status surefill_safe_occlusion_create(int32_t width, int32_t height, uint32_t depth_test,
+                                                            surefill_safe_occlusion** occlusion);
+
+/* Frees it. NULL is allowed. */
+SUREFILL_API void surefill_safe_occlusion_destroy(surefill_safe_occlusion* occlusion);
+
+/* Forgets the occluders: every box that reaches the target is visible. NULL is allowed. */
+SUREFILL_API void surefill_safe_occlusion_clear(surefill_safe_occlusion* occlusion);
+
+/* Draws occluders onto those before: meshes[i] with the vertices of draws[i], projected, one for each that was prepared. Those
+ * at one place have the same x, y, w. Fill rule, front face, culling and depth mode are as the picture's; a culling box is
+ * ignored; indices, identifiers, attributes, covered, visible, scissor, grid, bias, conservative modes, depth write off, lines
+ * and points are refused by their statuses. Other errors: NULL_OCCLUSION, OCCLUDER_MESH, OCCLUDER_VERTICES, and as
+ * surefill_render's; after OUT_OF_MEMORY the buffer is clear. Of the options threads and executor count. No other call may
+ * use the same buffer meanwhile. */
+SUREFILL_API surefill_status surefill_safe_occlusion_draw(surefill_safe_occlusion* occlusion,
+                                                          const surefill_occluder_mesh* const* meshes,
+                                                          const surefill_draw* draws, size_t draw_count,
+                                                          const surefill_options* options);
+
+/* As surefill_occlusion_query_boxes, but a box is of every larger picture [O5]: never "hidden" for what would change a sample
+ * of one. */
+SUREFILL_API surefill_status surefill_safe_occlusion_query_boxes(const surefill_safe_occlusion* occlusion,
+                                                                 const surefill_box* boxes, size_t count,
+                                                                 uint8_t* answers);
+
+/* The same for screen rectangles with a nearest depth. */
+SUREFILL_API surefill_status surefill_safe_occlusion_query_rectangles(const surefill_safe_occlusion* occlusion,
+                                                                      const surefill_rectangle* rectangles,
+                                                                      size_t count, uint8_t* answers);
+
+/* The depth z of pixel (x, y) [O4] at [y * width + x]; NULL for NULL. Valid until the buffer is destroyed. */
+SUREFILL_API const float* surefill_safe_occlusion_depth(const surefill_safe_occlusion* occlusion);
+
+/* As surefill_occlusion_set_equal_is_visible. */
+SUREFILL_API void surefill_safe_occlusion_set_equal_is_visible(surefill_safe_occlusion* occlusion, int32_t value);
 
 #ifdef __cplusplus
 }

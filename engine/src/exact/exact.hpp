@@ -150,6 +150,27 @@ float round_quotient(const Expansion<kNumerator>& numerator, const Expansion<kDe
   return nearest + 0.0f;
 }
 
+// The least float32 not below numerator / denominator; +0 for 0, +infinity beyond range. The denominator is not 0.
+template <std::size_t kNumerator, std::size_t kDenominator>
+float round_up_quotient(const Expansion<kNumerator>& numerator, const Expansion<kDenominator>& denominator) {
+  constexpr float kInfinity = std::numeric_limits<float>::infinity();
+  // Is the quotient above a float?
+  const auto above = [&](float value) {
+    if (std::isinf(value)) return value < 0;
+    Expansion<kNumerator + 2 * kDenominator> rest;
+    for (int i = 0; i < numerator.size(); ++i) rest.add(numerator.term(i));
+    rest.add_scaled(denominator, -static_cast<double>(value));
+    return rest.sign() * denominator.sign() > 0;
+  };
+  float rounded = static_cast<float>(numerator.estimate() / denominator.estimate());  // a neighbour at most off
+  while (above(rounded)) rounded = std::nextafter(rounded, kInfinity);
+  for (;;) {
+    const float below = std::nextafter(rounded, -kInfinity);
+    if (above(below)) return rounded + 0.0f;
+    rounded = below;
+  }
+}
+
 }  // namespace surefill
 
 #endif  // SUREFILL_SRC_EXACT_HPP

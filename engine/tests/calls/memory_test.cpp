@@ -372,7 +372,8 @@ TEST(Memory, Contexts) {
 }
 
 // The depths of a buffer, and its answers for rectangles at three depths.
-Bytes state_of(const OcclusionBuffer& buffer) {
+template <typename Buffer>
+Bytes state_of(const Buffer& buffer) {
   Bytes bytes;
   append<float>(bytes, buffer.depth());
   std::vector<OcclusionRectangle> rectangles;
@@ -414,6 +415,52 @@ TEST(Memory, OcclusionBuffer) {
                              {},
                              2});
   EXPECT_EQ(refused, 4);
+}
+
+// The draws' vertices as they are, where two triangles share an edge.
+struct SafeOccluder {
+  std::array<Vertex, 4> vertices{{{-9, -9, 0.25f, 1}, {99, -9, 0.25f, 1}, {-9, 99, 0.75f, 1}, {99, 99, 0.75f, 1}}};
+  std::array<std::uint32_t, 6> indices{0, 1, 2, 2, 1, 3};
+  std::array<float, 12> positions{};
+
+  SafeOccluder() {
+    for (std::size_t v = 0; v < 4; ++v) positions[3 * v] = static_cast<float>(v);
+  }
+};
+
+TEST(Memory, SafeOcclusionBuffer) {
+  const SafeOccluder wall;
+  OccluderMesh mesh;
+  const int prepared = check({"OccluderMesh::prepare",
+                              [&] { mesh = OccluderMesh(); },
+                              [&] { return number(mesh.prepare(wall.positions, wall.indices)); },
+                              [&] {
+                                const std::size_t sizes[] = {mesh.vertices(), mesh.triangles()};
+                                Bytes bytes;
+                                append<std::size_t>(bytes, sizes);
+                                return bytes;
+                              },
+                              {},
+                              6});
+  EXPECT_GE(prepared, 2 * 9);
+  for (const How& how : kWays) {
+    SafeOcclusionBuffer clear, buffer;
+    ASSERT_EQ(clear.resize(kWidth, kHeight), Status::ok);
+    Occluder occluder;
+    ASSERT_EQ(mesh.prepare(wall.positions, wall.indices), Status::ok);
+    occluder.mesh = &mesh, occluder.vertices = wall.vertices;
+    // Its memory is new each time, as it keeps what it has.
+    const int refused = check({std::string("SafeOcclusionBuffer::draw, ") + how.name,
+                               [&] {
+                                 buffer = SafeOcclusionBuffer();
+                                 ASSERT_EQ(buffer.resize(kWidth, kHeight), Status::ok);
+                               },
+                               [&] {
+                                 return number(buffer.draw({&occluder, 1}, how.options));
+                               },
+                               [&] { return state_of(buffer); }, [&] { return state_of(clear); }, 14});
+    EXPECT_GE(refused, 2 * 10) << how.name;
+  }
 }
 
 // ---- C

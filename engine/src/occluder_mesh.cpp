@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 #include <new>
+#include <numeric>
 #include <utility>
 
 #include "build_check.hpp"
@@ -49,10 +50,7 @@ class Preparation {
   // False if there is no memory.
   bool run() {
     state_->vertices = vertices_, state_->triangles = indices_.size() / 3;
-    state_->indices = make_array<std::uint32_t>(indices_.size());
-    if (state_->indices == nullptr) return false;
-    std::copy(indices_.begin(), indices_.end(), state_->indices.get());
-    return find_first_of_place() && list_places() && list_edges();
+    return find_first_of_place() && list_places() && list_sides() && find_parts() && list_triangles() && list_edges();
   }
 
  private:
@@ -109,35 +107,114 @@ class Preparation {
     return true;
   }
 
-  bool list_edges() {
-    struct Side {
-      std::uint64_t edge;  // its two places, the smaller one first
-      HalfEdge half;
-    };
-    const std::size_t sides = 3 * state_->triangles;
-    const auto list = make_array<Side>(sides);
-    if (list == nullptr) return false;
-    std::size_t size = 0;
+  struct Side {
+    std::uint64_t edge;  // its two places, the smaller one first
+    HalfEdge half;
+  };
+
+  // All sides of triangles, those of an edge one after another.
+  bool list_sides() {
+    sides_ = make_array<Side>(3 * state_->triangles);
+    if (sides_ == nullptr) return false;
     for (std::size_t t = 0; t < state_->triangles; ++t) {
       for (std::uint32_t corner = 0; corner < 3; ++corner) {
         const std::uint32_t from = first_[indices_[3 * t + corner]], to = first_[indices_[3 * t + (corner + 1) % 3]];
         if (from == to) continue;
-        list[size++] = {std::uint64_t{std::min(from, to)} << 32 | std::max(from, to),
-                        HalfEdge(static_cast<std::uint32_t>(t), corner, from > to)};
+        sides_[side_count_++] = {std::uint64_t{std::min(from, to)} << 32 | std::max(from, to),
+                                 HalfEdge(static_cast<std::uint32_t>(t), corner, from > to)};
       }
     }
-    std::sort(list.get(), list.get() + size, [](const Side& a, const Side& b) {
+    std::sort(sides_.get(), sides_.get() + side_count_, [](const Side& a, const Side& b) {
       return a.edge != b.edge ? a.edge < b.edge : a.half.triangle() < b.half.triangle();
     });
-    state_->half_edges = make_array<HalfEdge>(size);
-    state_->edge_begin = make_array<std::uint32_t>(size + 1);
-    if (state_->half_edges == nullptr || state_->edge_begin == nullptr) return false;
-    std::size_t edges = 0;
-    for (std::size_t i = 0; i < size; ++i) {
-      if (i == 0 || list[i].edge != list[i - 1].edge) state_->edge_begin[edges++] = static_cast<std::uint32_t>(i);
-      state_->half_edges[i] = list[i].half;
+    return true;
+  }
+
+  bool begins_edge(std::size_t side) const { return side == 0 || sides_[side].edge != sides_[side - 1].edge; }
+
+  std::uint32_t root_of(std::uint32_t triangle) const {
+    while (part_[triangle] != triangle) triangle = part_[triangle] = part_[part_[triangle]];
+    return triangle;
+  }
+
+  // part_[t]: the number of t's part. A part's first triangle has the smallest number, so it is met first.
+  bool find_parts() {
+    part_ = make_array<std::uint32_t>(state_->triangles);
+    if (part_ == nullptr) return false;
+    std::iota(part_.get(), part_.get() + state_->triangles, 0u);
+    for (std::size_t i = 0; i < side_count_; ++i) {
+      if (begins_edge(i)) continue;
+      const std::uint32_t a = root_of(sides_[i - 1].half.triangle()), b = root_of(sides_[i].half.triangle());
+      part_[std::max(a, b)] = std::min(a, b);
     }
-    state_->edge_begin[edges] = static_cast<std::uint32_t>(size);
+    for (std::uint32_t t = 0; t < state_->triangles; ++t) part_[t] = root_of(t);
+    std::uint32_t parts = 0;
+    for (std::uint32_t t = 0; t < state_->triangles; ++t) part_[t] = part_[t] == t ? parts++ : part_[part_[t]];
+    state_->parts = parts;
+    state_->part = make_array<MeshPart>(parts);
+    if (state_->part == nullptr) return false;
+    std::fill_n(state_->part.get(), parts, MeshPart{});
+    return true;
+  }
+
+  // The triangles, part by part, and the vertices of each part.
+  bool list_triangles() {
+    MeshPart* const parts = state_->part.get();
+    const auto last_part = make_array<std::uint32_t>(vertices_);  // that has the vertex
+    state_->indices = make_array<std::uint32_t>(indices_.size());
+    state_->part_vertices = make_array<std::uint32_t>(indices_.size());
+    moved_ = make_array<std::uint32_t>(state_->triangles);
+    if (last_part == nullptr || state_->indices == nullptr || state_->part_vertices == nullptr || moved_ == nullptr)
+      return false;
+    for (std::size_t t = 0; t < state_->triangles; ++t) ++parts[part_[t]].triangle_end;
+    std::uint32_t begin = 0;
+    for (std::size_t p = 0; p < state_->parts; ++p) {
+      parts[p].triangle_begin = begin;
+      begin += std::exchange(parts[p].triangle_end, begin);
+    }
+    for (std::uint32_t t = 0; t < state_->triangles; ++t) {
+      const std::uint32_t to = moved_[t] = parts[part_[t]].triangle_end++;
+      std::copy_n(indices_.data() + std::size_t{3} * t, 3, state_->indices.get() + std::size_t{3} * to);
+    }
+    std::fill_n(last_part.get(), vertices_, std::numeric_limits<std::uint32_t>::max());
+    std::uint32_t size = 0;
+    for (std::uint32_t p = 0; p < state_->parts; ++p) {
+      parts[p].vertex_begin = size;
+      for (std::size_t i = std::size_t{3} * parts[p].triangle_begin; i < std::size_t{3} * parts[p].triangle_end; ++i) {
+        const std::uint32_t v = state_->indices[i];
+        if (std::exchange(last_part[v], p) != p) state_->part_vertices[size++] = v;
+      }
+      parts[p].vertex_end = size;
+    }
+    return true;
+  }
+
+  // The edges, part by part.
+  bool list_edges() {
+    MeshPart* const parts = state_->part.get();
+    state_->half_edges = make_array<HalfEdge>(side_count_);
+    state_->edge_begin = make_array<std::uint32_t>(side_count_ + 1);
+    const auto next_half = make_array<std::uint32_t>(state_->parts);
+    if (state_->half_edges == nullptr || state_->edge_begin == nullptr || next_half == nullptr) return false;
+    std::fill_n(next_half.get(), state_->parts, 0);
+    for (std::size_t i = 0; i < side_count_; ++i) {
+      const std::uint32_t p = part_[sides_[i].half.triangle()];
+      ++next_half[p];
+      if (begins_edge(i)) ++parts[p].edge_end;
+    }
+    std::uint32_t edges = 0, halves = 0;
+    for (std::size_t p = 0; p < state_->parts; ++p) {
+      parts[p].edge_begin = edges;
+      edges += std::exchange(parts[p].edge_end, edges);
+      halves += std::exchange(next_half[p], halves);
+    }
+    for (std::size_t i = 0; i < side_count_; ++i) {
+      const HalfEdge half = sides_[i].half;
+      const std::uint32_t p = part_[half.triangle()];
+      if (begins_edge(i)) state_->edge_begin[parts[p].edge_end++] = next_half[p];
+      state_->half_edges[next_half[p]++] = HalfEdge(moved_[half.triangle()], half.corner(), half.direction() < 0);
+    }
+    state_->edge_begin[edges] = static_cast<std::uint32_t>(side_count_);
     state_->edges = edges;
     return true;
   }
@@ -146,6 +223,9 @@ class Preparation {
   std::span<const std::uint32_t> indices_;
   std::size_t stride_, vertices_;
   std::unique_ptr<std::uint32_t[]> first_;  // the first vertex at a vertex's place
+  std::unique_ptr<Side[]> sides_;
+  std::size_t side_count_ = 0;
+  std::unique_ptr<std::uint32_t[]> part_, moved_;  // a triangle's part, and its number in the list
   MeshTopology* state_;
 };
 

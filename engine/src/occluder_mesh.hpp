@@ -29,9 +29,20 @@ class HalfEdge {
 
 inline constexpr std::size_t kMaxMeshTriangles = std::size_t{1} << 29;  // what a HalfEdge can name
 
+// What hangs together by edges, whichever way its triangles face: no occluder reaches beyond it. Parts are apart in each of
+// the mesh's lists but that of places; a vertex may belong to several.
+struct MeshPart {
+  std::uint32_t triangle_begin, triangle_end;
+  std::uint32_t edge_begin, edge_end;
+  std::uint32_t vertex_begin, vertex_end;  // in part_vertices
+};
+
 struct MeshTopology {
   std::size_t vertices = 0, triangles = 0;
-  std::unique_ptr<std::uint32_t[]> indices;
+  std::unique_ptr<std::uint32_t[]> indices;  // of the triangles, part by part
+  std::size_t parts = 0;
+  std::unique_ptr<MeshPart[]> part;
+  std::unique_ptr<std::uint32_t[]> part_vertices;  // each vertex of a part once
   // Places with several vertices: those of place p are members[place_begin[p]] up to place_begin[p + 1].
   std::size_t places = 0;
   std::unique_ptr<std::uint32_t[]> place_begin, members;

@@ -34,10 +34,15 @@ int facing_of(const Vertex& v0, const Vertex& v1, const Vertex& v2) {
   return exact_determinant(v0, v1, v2).sign();
 }
 
-// Squares of one axis that lie strictly within the reach, in [0, size).
-void squares_within(double low, double high, int size, int* first, int* last) {
-  *first = static_cast<int>(std::clamp(std::floor(low) + 1, 0.0, static_cast<double>(size)));
-  *last = static_cast<int>(std::clamp(std::ceil(high) - 1, 0.0, static_cast<double>(size)));
+// The squares of a target that lie within an extent and touch none of its ends.
+PixelBox squares_within(const Extent& extent, int width, int height) {
+  const auto first = [](double low, int size) {
+    return static_cast<int>(std::clamp(std::floor(low) + 1, 0.0, static_cast<double>(size)));
+  };
+  const auto last = [](double high, int size) {
+    return static_cast<int>(std::clamp(std::ceil(high) - 1, 0.0, static_cast<double>(size)));
+  };
+  return {first(extent.x0, width), first(extent.y0, height), last(extent.x1, width), last(extent.y1, height)};
 }
 
 }  // namespace
@@ -61,42 +66,77 @@ bool PatchList::reserve(const MeshTopology& mesh, const Occluder& occluder) {
          view_list_.reserve(views_ + 1) && first_vertex_.reserve(views_ + 1) && sides_.reserve(mesh.triangles) &&
          parent_.reserve(mesh.triangles) && patch_of_.reserve(mesh.triangles) && found_.reserve(mesh.triangles) &&
          half_rims_.reserve(3 * mesh.triangles) && patch_list_.reserve(patches_ + mesh.triangles) &&
-         rim_list_.reserve(rims_ + 3 * mesh.triangles);
+         rim_list_.reserve(rims_ + 3 * mesh.triangles) && codes_.reserve(occluder.vertices.size());
 }
 
 bool PatchList::add(const MeshTopology& mesh, const Occluder& occluder, int width, int height, float sign) {
   if (!reserve(mesh, occluder)) return false;
+  sign_ = sign;
   view_list_[views_] = {occluder.vertices.data(), mesh.indices.get(), nullptr, occluder.depth_mode};
   first_vertex_[views_] = vertices_;
-  see(occluder.vertices, sign);
-  find_sides(mesh, occluder);
-  link(mesh);
-  list_patches(mesh, width, height);
+  find_codes(occluder.vertices, width, height);
+  for (std::size_t p = 0; p < mesh.parts; ++p) {
+    const MeshPart& part = mesh.part[p];
+    if (is_off(mesh, part) || !see(mesh, part, occluder.vertices, width, height)) continue;
+    find_sides(mesh, part, occluder);
+    link(mesh, part);
+    list_patches(mesh, part, width, height);
+  }
   vertices_ += occluder.vertices.size();
   ++views_;
   return true;
 }
 
-void PatchList::see(std::span<const Vertex> vertices, float sign) {
-  SeenVertex* const seen = seen_.data() + vertices_;
+// If all vertices of a part lie on the outer side of one of the target's sides, or have W <= 0, nothing of it is on the target,
+// as what is seen of it is a sum of them. A vertex that is not finite is one of no face: it lies beyond every side.
+void PatchList::find_codes(std::span<const Vertex> vertices, int width, int height) {
+  const double right = width, bottom = height;  // W times that is exact: 24 and 15 bits
+  std::uint8_t* const codes = codes_.data();
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     const Vertex& v = vertices[i];
-    SeenVertex& s = seen[i];
-    s.flags = is_finite(v) ? SeenVertex::kFinite : 0;
-    if (s.flags == 0 || !(v.w > 0)) continue;
-    s.flags |= SeenVertex::kInFront | (v.z >= 0 && v.z <= v.w ? SeenVertex::kUnitDepth : 0);
-    s.x = static_cast<double>(v.x) / v.w, s.y = static_cast<double>(v.y) / v.w;
-    s.farthest = rounded_up_quotient(sign * v.z, v.w);
+    const double x = v.x, y = v.y, w = v.w;
+    const int code =
+        (w <= 0 ? 1 : 0) | (x < 0 ? 2 : 0) | (y < 0 ? 4 : 0) | (x > right * w ? 8 : 0) | (y > bottom * w ? 16 : 0);
+    const float any = v.x * 0 + v.y * 0 + v.z * 0 + v.w * 0;  // a NaN if one of them is not finite
+    codes[i] = static_cast<std::uint8_t>(any == 0 ? code : 31);
   }
 }
 
-void PatchList::find_sides(const MeshTopology& mesh, const Occluder& occluder) {
+bool PatchList::is_off(const MeshTopology& mesh, const MeshPart& part) const {
+  unsigned common = 31;
+  for (std::size_t i = part.vertex_begin; i < part.vertex_end; ++i) common &= codes_[mesh.part_vertices[i]];
+  return common != 0;
+}
+
+// False if no patch of the part can fill a square.
+bool PatchList::see(const MeshTopology& mesh, const MeshPart& part, std::span<const Vertex> vertices, int width,
+                    int height) {
+  Extent extent;
+  bool everywhere = false;
+  for (std::size_t i = part.vertex_begin; i < part.vertex_end; ++i) {
+    const Vertex& v = vertices[mesh.part_vertices[i]];
+    SeenVertex& s = seen_[vertices_ + mesh.part_vertices[i]];
+    s.flags = is_finite(v) ? SeenVertex::kFinite : 0;
+    if (s.flags == 0) continue;
+    if (!(v.w > 0)) {
+      everywhere = true;
+      continue;
+    }
+    s.flags |= SeenVertex::kInFront | (v.z >= 0 && v.z <= v.w ? SeenVertex::kUnitDepth : 0);
+    s.x = static_cast<double>(v.x) / v.w, s.y = static_cast<double>(v.y) / v.w;
+    s.farthest = rounded_up_quotient(sign_ * v.z, v.w);
+    extent.add(s.x, s.y);
+  }
+  return everywhere || !squares_within(extent, width, height).empty();
+}
+
+void PatchList::find_sides(const MeshTopology& mesh, const MeshPart& part, const Occluder& occluder) {
   const SeenVertex* const seen = seen_.data() + vertices_;
   const Vertex* const vertices = occluder.vertices.data();
-  const std::uint32_t* index = mesh.indices.get();
+  const std::uint32_t* index = mesh.indices.get() + std::size_t{3} * part.triangle_begin;
   const int front = occluder.front_face == FrontFace::clockwise ? 1 : -1;
   const Side of_front = occluder.cull == Cull::front ? 0 : 1, of_back = occluder.cull == Cull::back ? 0 : 2;
-  for (std::size_t t = 0; t < mesh.triangles; ++t, index += 3) {
+  for (std::size_t t = part.triangle_begin; t < part.triangle_end; ++t, index += 3) {
     Side side = 0;
     if ((seen[index[0]].flags & seen[index[1]].flags & seen[index[2]].flags & SeenVertex::kFinite) != 0) {
       const int facing = facing_of(vertices[index[0]], vertices[index[1]], vertices[index[2]]) * front;
@@ -120,9 +160,9 @@ void PatchList::join(std::uint32_t a, std::uint32_t b) {
   parent_[std::max(a, b)] = std::min(a, b);
 }
 
-void PatchList::link(const MeshTopology& mesh) {
+void PatchList::link(const MeshTopology& mesh, const MeshPart& part) {
   half_rim_count_ = 0;
-  for (std::size_t e = 0; e < mesh.edges; ++e) {
+  for (std::size_t e = part.edge_begin; e < part.edge_end; ++e) {
     const std::size_t begin = mesh.edge_begin[e], end = mesh.edge_begin[e + 1];
     if (end - begin != 2) {
       link_many(mesh, begin, end);
@@ -162,11 +202,11 @@ void PatchList::link_many(const MeshTopology& mesh, std::size_t begin, std::size
 }
 
 // A patch's first face, its root, has the smallest number, so it is met before the others.
-std::size_t PatchList::number_patches(const MeshTopology& mesh) {
+std::size_t PatchList::number_patches(const MeshTopology& mesh, const MeshPart& part) {
   const SeenVertex* const seen = seen_.data() + vertices_;
-  const std::uint32_t* index = mesh.indices.get();
+  const std::uint32_t* index = mesh.indices.get() + std::size_t{3} * part.triangle_begin;
   std::size_t count = 0;
-  for (std::size_t t = 0; t < mesh.triangles; ++t, index += 3) {
+  for (std::size_t t = part.triangle_begin; t < part.triangle_end; ++t, index += 3) {
     patch_of_[t] = kNoPatch;
     if (sides_[t] == 0) continue;
     const std::uint32_t root = root_of(static_cast<std::uint32_t>(t));
@@ -193,22 +233,20 @@ std::size_t PatchList::number_patches(const MeshTopology& mesh) {
   return count;
 }
 
-void PatchList::list_patches(const MeshTopology& mesh, int width, int height) {
-  const std::size_t count = number_patches(mesh);
+void PatchList::list_patches(const MeshTopology& mesh, const MeshPart& part, int width, int height) {
+  const std::size_t count = number_patches(mesh, part);
   for (std::size_t i = 0; i < half_rim_count_; ++i) ++found_[patch_of_[half_rims_[i].triangle()]].rims;
   // Those that can fill a square, with room for their faces and rims.
   for (std::size_t i = 0; i < count; ++i) {
     Found& found = found_[i];
-    PixelBox box{};
-    squares_within(found.extent.x0, found.extent.x1, width, &box.x0, &box.x1);
-    squares_within(found.extent.y0, found.extent.y1, height, &box.y0, &box.y1);
+    const PixelBox box = squares_within(found.extent, width, height);
     found.number = kNotDrawn;
     if (box.empty()) continue;
     found.number = patches_;
     patch_list_[patches_++] = {static_cast<std::uint32_t>(views_), faces_, faces_, rims_, rims_, box, found.nearest};
     faces_ += found.faces, rims_ += found.rims;
   }
-  for (std::size_t t = 0; t < mesh.triangles; ++t) {
+  for (std::size_t t = part.triangle_begin; t < part.triangle_end; ++t) {
     if (patch_of_[t] == kNoPatch || found_[patch_of_[t]].number == kNotDrawn) continue;
     face_list_[patch_list_[found_[patch_of_[t]].number].face_end++] = static_cast<std::uint32_t>(t);
   }

@@ -70,12 +70,15 @@ class PatchList {
   };
 
   bool reserve(const MeshTopology& mesh, const Occluder& occluder);
-  void see(std::span<const Vertex> vertices, float sign);
-  void find_sides(const MeshTopology& mesh, const Occluder& occluder);
-  void link(const MeshTopology& mesh);
+  void find_codes(std::span<const Vertex> vertices, int width, int height);
+  // Steps of one part, in this order.
+  bool is_off(const MeshTopology& mesh, const MeshPart& part) const;
+  bool see(const MeshTopology& mesh, const MeshPart& part, std::span<const Vertex> vertices, int width, int height);
+  void find_sides(const MeshTopology& mesh, const MeshPart& part, const Occluder& occluder);
+  void link(const MeshTopology& mesh, const MeshPart& part);
   void link_many(const MeshTopology& mesh, std::size_t begin, std::size_t end);
-  std::size_t number_patches(const MeshTopology& mesh);
-  void list_patches(const MeshTopology& mesh, int width, int height);
+  std::size_t number_patches(const MeshTopology& mesh, const MeshPart& part);
+  void list_patches(const MeshTopology& mesh, const MeshPart& part, int width, int height);
   std::uint32_t root_of(std::uint32_t triangle);
   void join(std::uint32_t a, std::uint32_t b);
 
@@ -88,7 +91,9 @@ class PatchList {
   Growing<std::size_t> first_vertex_;  // of a view, in seen_
   std::size_t vertices_ = 0, faces_ = 0, rims_ = 0, patches_ = 0, views_ = 0;
 
-  // Of one.
+  // Of one. Of triangles what their part has is used, and then its next one's.
+  Growing<std::uint8_t> codes_;  // of vertices: sides of the target beyond which they lie
+  float sign_ = 1;
   Growing<Side> sides_;
   Growing<std::uint32_t> parent_;    // of a face, towards the first one of its patch
   Growing<std::uint32_t> patch_of_;  // of a face, in found_

@@ -20,7 +20,6 @@ namespace {
 using oracle::AxisModel;
 
 constexpr double kMostBlur = 1.0 / 16;  // R13: what is blurred more is not known
-constexpr double kLeastBlur = 0x1p-24;
 
 std::vector<Turn> of_axis(const std::vector<Turn>& turns, int axis) {
   std::vector<Turn> part;

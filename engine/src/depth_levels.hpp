@@ -15,6 +15,7 @@
 
 #include "build_check.hpp"
 #include "exact/bounds.hpp"
+#include "fast/patches.hpp"
 #include "float_environment.hpp"
 #include "overlap.hpp"
 #include "surefill/occlusion.hpp"
@@ -26,63 +27,40 @@ constexpr int kFanoutLog2 = 3;   // a block is 8 x 8 of the level below
 constexpr int kLevels = 5;       // level k has blocks of 8^k pixels; 8^5 > kMaxTargetSize
 constexpr int kSpanAtStart = 4;  // a query starts at the level where its rectangle spans about so many blocks
 
-// What a query asks: is a pixel of `pixels` farther than `nearest`? (O2)
-struct Question {
-  PixelBox pixels{0, 0, 0, 0};
-  float nearest = 0;
-};
+using Pixels = fast::RectanglePixels;
+using Question = fast::BoxQuestion;
 
-// a / w as I4 rounds it; w > 0.
-inline float rounded_quotient(float a, float w) {
-  constexpr float kLargest = std::numeric_limits<float>::max();
-  return std::clamp(a / w, -kLargest, kLargest);
+// The questions of boxes or rectangles.
+inline void ask(std::span<const OcclusionBox> boxes, float sign, Pixels which, PixelBox target, Question* questions) {
+  fast::patch_kernels().ask(boxes[0].corners, boxes.size(), sign, which, target, questions);
 }
 
-// Which pixels a rectangle has: those whose centre lies in it (O2), or whose half-open square meets it (O5).
-enum class Pixels { with_centre, met };
-
-// The pixels of the target that the closed rectangle has. The ends are exact where it matters: see question_of.
-inline PixelBox pixels_of(Reach x, Reach y, Pixels which, PixelBox target) {
-  if (which == Pixels::met) x.low = std::floor(x.low), y.low = std::floor(y.low);
+inline void ask(std::span<const OcclusionRectangle> rectangles, float sign, Pixels which, PixelBox target,
+                Question* questions) {
   const double offset = which == Pixels::met ? 0 : 0.5;
-  clip_to_reach(x, offset, offset, &target.x0, &target.x1);
-  clip_to_reach(y, offset, offset, &target.y0, &target.y1);
-  return target;
-}
-
-// The quotients are rounded to double, and compared with pixel centres and corners exactly nevertheless: X and c W are
-// numbers of 24 and 39 bits, so if X / W differs from the place c, it does by more than 2^-40 of c.
-inline Question question_of(const OcclusionBox& box, float sign, Pixels which, PixelBox target) {
-  Reach x{HUGE_VAL, -HUGE_VAL}, y = x;
-  float nearest = kFarthest;
-  int in_front = 0;
-  for (const Vertex& v : box.corners) {
-    if (!(v.w > 0)) continue;
-    ++in_front;
-    const double px = static_cast<double>(v.x) / v.w, py = static_cast<double>(v.y) / v.w;
-    x = {std::min(x.low, px), std::max(x.high, px)};
-    y = {std::min(y.low, py), std::max(y.high, py)};
-    nearest = std::min(nearest, rounded_quotient(sign * v.z, v.w));
+  for (const OcclusionRectangle& r : rectangles) {
+    Question& question = *questions++ = {{0, 0, 0, 0}, sign * r.nearest_depth};
+    if (!(r.x0 <= r.x1 && r.y0 <= r.y1)) continue;
+    Reach x{r.x0, r.x1}, y{r.y0, r.y1};
+    if (which == Pixels::met) x.low = std::floor(x.low), y.low = std::floor(y.low);
+    question.pixels = target;
+    clip_to_reach(x, offset, offset, &question.pixels.x0, &question.pixels.x1);
+    clip_to_reach(y, offset, offset, &question.pixels.y0, &question.pixels.y1);
   }
-  if (in_front == 0) return {};
-  if (in_front < 8) return {target, -kFarthest};
-  return {pixels_of(x, y, which, target), nearest};
 }
 
-inline Question question_of(const OcclusionRectangle& r, float sign, Pixels which, PixelBox target) {
-  if (!(r.x0 <= r.x1 && r.y0 <= r.y1)) return {};
-  return {pixels_of({r.x0, r.x1}, {r.y0, r.y1}, which, target), sign * r.nearest_depth};
+inline bool are_legal(std::span<const OcclusionBox> boxes) {
+  return boxes.empty() ||
+         fast::patch_kernels().finite(&boxes[0].corners[0].x, boxes.size() * (sizeof boxes[0] / sizeof(float)));
 }
 
-inline bool legal(const OcclusionBox& box) {
-  return std::all_of(std::begin(box.corners), std::end(box.corners), [](const Vertex& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
-  });
-}
-
-inline bool legal(const OcclusionRectangle& r) {
+inline bool is_legal(const OcclusionRectangle& r) {
   return !std::isnan(r.x0) && !std::isnan(r.y0) && !std::isnan(r.x1) && !std::isnan(r.y1) &&
          !std::isnan(r.nearest_depth);
+}
+
+inline bool are_legal(std::span<const OcclusionRectangle> rectangles) {
+  return std::all_of(rectangles.begin(), rectangles.end(), is_legal);
 }
 
 struct DepthLevels {
@@ -129,29 +107,17 @@ struct DepthLevels {
     }
   }
 
-  // Each block's farthest key, from the level below: over the rows of a block first, column by column, which compilers
-  // make vector code of; then over its columns. Not inlined: it needs the engine's floating-point state.
-  [[gnu::noinline]] void build() {
-    constexpr int kFanout = 1 << kFanoutLog2, kColumns = 16 * kFanout;
+  // Each block's farthest key, from the level below.
+  void build() {
+    constexpr int kFanout = 1 << kFanoutLog2;
+    const auto largest_of_blocks = fast::patch_kernels().largest_of_blocks;
     for (int k = 1; k <= kLevels; ++k) {
       const Level &below = levels[k - 1], &level = levels[k];
-      const float scale = k == 1 ? sign() : 1.0f;
+      const auto stride = static_cast<std::size_t>(below.width);
       for (int y = 0; y < level.height; ++y) {
-        float* to = level.farthest + static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width);
-        const int first_row = y * kFanout, last_row = std::min(first_row + kFanout, below.height);
-        for (int x = 0; x < below.width; x += kColumns) {
-          const int columns = std::min(kColumns, below.width - x);
-          float farthest[kColumns];
-          std::fill_n(farthest, kColumns, -kFarthest);
-          for (int row = first_row; row < last_row; ++row) {
-            const float* from =
-                below.farthest + static_cast<std::size_t>(row) * static_cast<std::size_t>(below.width) + x;
-            for (int i = 0; i < columns; ++i) farthest[i] = std::max(farthest[i], scale * from[i]);
-          }
-          for (int i = 0; i < columns; i += kFanout) {
-            to[(x + i) >> kFanoutLog2] = *std::max_element(farthest + i, farthest + i + kFanout);
-          }
-        }
+        largest_of_blocks(below.farthest + static_cast<std::size_t>(y * kFanout) * stride, stride,
+                          std::min(kFanout, below.height - y * kFanout), below.width, k == 1 ? sign() : 1.0f,
+                          level.farthest + static_cast<std::size_t>(y) * static_cast<std::size_t>(level.width));
       }
     }
   }
@@ -195,11 +161,17 @@ struct DepthLevels {
   template <typename Box>
   [[gnu::noinline]] static Status answer_all(const DepthLevels* state, std::span<const Box> boxes, Occlusion* answers,
                                              Pixels which, bool equal) {
-    if (!std::all_of(boxes.begin(), boxes.end(), [](const Box& box) { return legal(box); })) return Status::query_boxes;
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      answers[i] = state == nullptr
-                       ? Occlusion::outside
-                       : state->answer(question_of(boxes[i], state->sign(), which, state->target()), equal);
+    if (!are_legal(boxes)) return Status::query_boxes;
+    if (state == nullptr) {
+      std::fill_n(answers, boxes.size(), Occlusion::outside);
+      return Status::ok;
+    }
+    constexpr std::size_t kAtOnce = 64;
+    Question questions[kAtOnce];
+    for (std::size_t i = 0; i < boxes.size(); i += kAtOnce) {
+      const std::size_t count = std::min(kAtOnce, boxes.size() - i);
+      ask(boxes.subspan(i, count), state->sign(), which, state->target(), questions);
+      for (std::size_t n = 0; n < count; ++n) answers[i + n] = state->answer(questions[n], equal);
     }
     return Status::ok;
   }

@@ -35,6 +35,7 @@ class Growing {
     capacity_ = more;
     return true;
   }
+  std::size_t capacity() const { return capacity_; }
   T* data() const { return data_.get(); }
   T& operator[](std::size_t i) const { return data_[i]; }
 

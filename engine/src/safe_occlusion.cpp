@@ -90,7 +90,7 @@ struct SafeOcclusionBuffer::State : DepthLevels {
   bool draw_bands(const Options& options, std::size_t bands, std::size_t rows) {
     fast::PatchFrame frame = patches.frame();
     frame.sign = sign(), frame.width = width, frame.depth = levels[0].farthest;
-    const fast::DrawPatches draw_rows = fast::draw_patches();
+    const auto draw_rows = fast::patch_kernels().draw;
     // Each band has memory of its own, as nobody knows which thread draws it.
     const std::size_t band_keys = rows * static_cast<std::size_t>(width);
 #if defined(SUREFILL_REFERENCE_ONLY)
@@ -99,11 +99,13 @@ struct SafeOcclusionBuffer::State : DepthLevels {
     const bool alone = options.threads == 1 && options.executor.run == nullptr;
     const std::size_t memories = alone ? 1 : bands;
 #endif
+    const std::size_t keys_before = keys.capacity();
     if (!keys.reserve(memories * band_keys) || !columns.reserve(2 * memories * rows)) return false;
+    // Patches leave keys as they find them.
+    if (keys.capacity() != keys_before) std::fill_n(keys.data(), keys.capacity(), -kFarthest);
     const auto draw_band = [&](std::size_t band, std::size_t place) {
       const fast::PatchScratch scratch{keys.data() + place * band_keys, columns.data() + 2 * place * rows,
                                        columns.data() + (2 * place + 1) * rows};
-      std::fill_n(scratch.keys, band_keys, -kFarthest);
       const int begin = static_cast<int>(band * rows);
       draw_rows(frame, begin, std::min(begin + static_cast<int>(rows), height), scratch);
     };

@@ -439,10 +439,93 @@ void DrawAll(const PatchFrame& frame, int begin, int end, const PatchScratch& sc
   }
 }
 
+// ---- queries and levels
+bool Finite(const float* numbers, std::size_t count) {
+  constexpr std::size_t kLanes = 32;
+  float sums[kLanes] = {};  // 0, or a NaN
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    for (std::size_t n = 0; n < kLanes; ++n) sums[n] += numbers[i + n] * 0.0f;
+  }
+  float sum = 0;
+  for (; i < count; ++i) sum += numbers[i] * 0.0f;
+  for (const float lane : sums) sum += lane;
+  return sum == 0;
+}
+
+// Integers i of [0, size) with low <= i + offset <= high, or with [i, i + 1) and [low, high] meeting. The quotients are rounded
+// to double, and compared with pixel centres and corners exactly nevertheless: X and c W are numbers of 24 and 39 bits, so
+// if X / W differs from the place c, it does by more than 2^-40 of c.
+inline void PixelsOf(double low, double high, RectanglePixels which, int size, int* first, int* last) {
+  const bool met = which == RectanglePixels::met;
+  const double from = met ? std::floor(low) : std::ceil(low - 0.5), to = std::floor(met ? high : high - 0.5) + 1;
+  *first = ToInt(from, 0, size), *last = ToInt(to, 0, size);
+}
+
+BoxQuestion QuestionOf(const Vertex* corners, float sign, RectanglePixels which, PixelBox target) {
+  constexpr float kLargest = std::numeric_limits<float>::max();
+  double x[8], y[8];
+  float key[8], least_w = corners[0].w, most_w = corners[0].w;
+  for (int k = 0; k < 8; ++k) {
+    const float w = corners[k].w;
+    least_w = least_w < w ? least_w : w, most_w = most_w > w ? most_w : w;
+  }
+  if (!(most_w > 0)) return {{0, 0, 0, 0}, 0};
+  if (!(least_w > 0)) return {target, -std::numeric_limits<float>::infinity()};
+  for (int k = 0; k < 8; ++k) {
+    const Vertex& v = corners[k];
+    const double w = v.w;
+    x[k] = v.x / w, y[k] = v.y / w;
+    key[k] = sign * v.z / v.w;
+  }
+  double low_x[4], high_x[4], low_y[4], high_y[4];
+  float low_key[4];
+  for (int k = 0; k < 4; ++k) {
+    low_x[k] = Low(x[k], x[k + 4]), high_x[k] = High(x[k], x[k + 4]);
+    low_y[k] = Low(y[k], y[k + 4]), high_y[k] = High(y[k], y[k + 4]);
+    low_key[k] = key[k] < key[k + 4] ? key[k] : key[k + 4];
+  }
+  BoxQuestion q;
+  PixelsOf(Low(Low(low_x[0], low_x[1]), Low(low_x[2], low_x[3])),
+           High(High(high_x[0], high_x[1]), High(high_x[2], high_x[3])), which, target.x1, &q.pixels.x0, &q.pixels.x1);
+  PixelsOf(Low(Low(low_y[0], low_y[1]), Low(low_y[2], low_y[3])),
+           High(High(high_y[0], high_y[1]), High(high_y[2], high_y[3])), which, target.y1, &q.pixels.y0, &q.pixels.y1);
+  const float nearest = std::min(std::min(low_key[0], low_key[1]), std::min(low_key[2], low_key[3]));
+  q.nearest = std::min(std::max(nearest, -kLargest), kLargest);  // I4
+  return q;
+}
+
+void Ask(const Vertex* corners, std::size_t boxes, float sign, RectanglePixels which, PixelBox target,
+         BoxQuestion* questions) {
+  for (std::size_t i = 0; i < boxes; ++i) questions[i] = QuestionOf(corners + 8 * i, sign, which, target);
+}
+
+void LargestOfBlocks(const float* from, std::size_t stride, int rows, int columns, float scale, float* largest) {
+  constexpr int kColumns = 128;
+  for (int x = 0; x < columns; x += kColumns) {
+    float column[kColumns];
+    const int count = std::min(kColumns, columns - x);
+    for (int i = 0; i < kColumns; ++i) column[i] = -std::numeric_limits<float>::infinity();
+    for (int row = 0; row < rows; ++row) {
+      const float* const in = from + static_cast<std::size_t>(row) * stride + x;
+      for (int i = 0; i < count; ++i) {
+        const float value = scale * in[i];
+        column[i] = value > column[i] ? value : column[i];
+      }
+    }
+    for (int i = 0; i < count; i += 8) {
+      float most = column[i];
+      for (int k = 1; k < 8; ++k) most = column[i + k] > most ? column[i + k] : most;
+      largest[(x + i) / 8] = most;
+    }
+  }
+}
+
 }  // namespace
 
-DrawPatches PatchesOfTarget() {
-  return DrawAll;
+const PatchKernels* PatchesOfTarget() {
+  static const PatchKernels kernels{DrawAll, Finite, Ask, LargestOfBlocks};
+  return &kernels;
 }
 
 }  // namespace surefill::fast::SUREFILL_PATCHES
@@ -455,14 +538,14 @@ HWY_AFTER_NAMESPACE();
 namespace surefill::fast {
 
 #if defined(SUREFILL_REFERENCE_ONLY)
-DrawPatches draw_patches() {
-  return scalar::PatchesOfTarget();
+const PatchKernels& patch_kernels() {
+  return *scalar::PatchesOfTarget();
 }
 #else
 HWY_EXPORT(PatchesOfTarget);
 
-DrawPatches draw_patches() {
-  return HWY_DYNAMIC_DISPATCH(PatchesOfTarget)();
+const PatchKernels& patch_kernels() {
+  return *HWY_DYNAMIC_DISPATCH(PatchesOfTarget)();
 }
 #endif
 

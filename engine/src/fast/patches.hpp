@@ -62,11 +62,29 @@ struct PatchScratch {
   std::int32_t *first, *last;  // of each row: columns with keys, last included
 };
 
-// Draws the part of all patches that lies in rows [begin, end).
-using DrawPatches = void (*)(const PatchFrame& frame, int begin, int end, const PatchScratch& scratch);
+// What a box asks (O2, O5): is a pixel of `pixels` farther than the key `nearest`?
+struct BoxQuestion {
+  PixelBox pixels;
+  float nearest;
+};
 
-// That of this machine's instruction set.
-DrawPatches draw_patches();
+// Which pixels a rectangle has: those whose centre lies in it (O2), or whose half-open square meets it (O5).
+enum class RectanglePixels { with_centre, met };
+
+struct PatchKernels {
+  // Draws the part of all patches that lies in rows [begin, end).
+  void (*draw)(const PatchFrame& frame, int begin, int end, const PatchScratch& scratch);
+  // Are so many numbers all finite?
+  bool (*finite)(const float* numbers, std::size_t count);
+  // The questions of so many boxes of eight finite corners, asked of a target of that size.
+  void (*ask)(const Vertex* corners, std::size_t boxes, float sign, RectanglePixels which, PixelBox target,
+              BoxQuestion* questions);
+  // largest[i]: of scale times a block's floats, 8 x 8 from from[8 i] on; `rows` may be fewer, and so the last one's columns.
+  void (*largest_of_blocks)(const float* from, std::size_t stride, int rows, int columns, float scale, float* largest);
+};
+
+// Those of this machine's instruction set.
+const PatchKernels& patch_kernels();
 
 }  // namespace surefill::fast
 

@@ -31,6 +31,8 @@ using SafeBufferMaker = std::function<SafeBuffer(const corpus::Scene& occluders)
 
 SafeBufferMaker oracle_safe_buffer();          // oracle::safe_depth, oracle::answer
 SafeBufferMaker clipped_oracle_safe_buffer();  // those of the second oracle
+// SafeOcclusionBuffer, whose meshes are prepared with X, Y, W as positions; drawn with these options.
+SafeBufferMaker engine_safe_buffer(const Options& options = {});
 
 // A target that shows a buffer's view: a vertex (X, Y, Z, W) of the buffer is (a X + b W, c Y + e W, Z, W) there.
 struct View {

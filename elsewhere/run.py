@@ -243,7 +243,11 @@ def main():
         return 0
     failed = []
     only = "reference" if "--reference" in flags else "one file" if "--one-file" in flags else None
-    scenes = None if "--frames" in given else random_scenes(given.get("--scenes"))
+    try:
+        scenes = None if "--frames" in given else random_scenes(given.get("--scenes"))
+    except RuntimeError as error:
+        print(error, file=sys.stderr)
+        return 1
     for name in names:
         try:
             right = frames(name, int(given["--frames"])) if "--frames" in given else rows(name, scenes, only)

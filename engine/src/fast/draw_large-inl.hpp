@@ -249,8 +249,9 @@ class LargeTriangles : public SmallTriangles<kDepth, kWinner, kCount> {
     const CellUint du;
     for (std::size_t n = 0; n < 16; ++n) {
       const std::uint32_t more = whole_tile_ + whole_areas_[n];
+      if (more == 0) continue;  // and where nothing is counted there is no buffer
       std::uint32_t* const count = count_ + n * kAreaSamples;
-      for (std::size_t i = 0; more != 0 && i < kAreaSamples; i += kCellLanes)
+      for (std::size_t i = 0; i < kAreaSamples; i += kCellLanes)
         hn::Store(hn::Add(hn::Load(du, count + i), hn::Set(du, more)), du, count + i);
       whole_areas_[n] = 0;
     }

@@ -169,6 +169,65 @@ TEST(Resolutions, Viewports) {
   EXPECT_GT(seen.views * 2, static_cast<std::uint64_t>(scenes));
 }
 
+// Where T7 does not speak: a triangle before a box at 160 x 90, and at f times that, all by S3. At how many samples the box
+// is seen. The triangle's vertices lie far outside of the picture; of W = 1 or of 2^-10, as where a wall passes the eye.
+int seen_at_factor(int f, float w) {
+  const auto viewport = [](int factor) {
+    return Viewport{.width = 160 * static_cast<float>(factor), .height = 90 * static_cast<float>(factor)};
+  };
+  const std::vector<ClipVertex> occluder = {{-8860.189453125f * w, 15562.4619140625f * w, 0.5f * w, w},
+                                            {10788.3056640625f * w, -18950.775390625f * w, 0.5f * w, w},
+                                            {-20000 * w, -20000 * w, 0.5f * w, w}};
+  const float x0 = 0.5f / 80, x1 = 0.99f / 80, y0 = -35.01f / 45, y1 = -35.5f / 45;
+  const std::vector<ClipVertex> box = {{x0, y0, 0.75f, 1}, {x1, y0, 0.75f, 1}, {x1, y1, 0.75f, 1}, {x0, y1, 0.75f, 1}};
+  const std::vector<std::uint32_t> triangle = {0, 1, 2}, quad = {0, 1, 2, 0, 2, 3};
+  std::vector<Vertex> occluder_vertices(3), box_vertices(4);
+
+  EXPECT_EQ(to_pixel(viewport(1), occluder, occluder_vertices), Status::ok);
+  EXPECT_EQ(to_pixel(viewport(1), box, box_vertices), Status::ok);
+  std::vector<float> positions;
+  for (const ClipVertex& v : occluder) positions.insert(positions.end(), {v.x, v.y, v.w});
+  OccluderMesh mesh;
+  EXPECT_EQ(mesh.prepare(positions, triangle), Status::ok);
+  Occluder drawn;
+  drawn.mesh = &mesh, drawn.vertices = occluder_vertices;
+  SafeOcclusionBuffer buffer;
+  EXPECT_EQ(buffer.resize(160, 90), Status::ok);
+  EXPECT_EQ(buffer.draw({&drawn, 1}), Status::ok);
+  OcclusionBox asked{};
+  for (std::size_t k = 0; k < 8; ++k) asked.corners[k] = box_vertices[k % 4];
+  Occlusion answer = Occlusion::visible;
+  EXPECT_EQ(buffer.query({&asked, 1}, {&answer, 1}), Status::ok);
+  EXPECT_EQ(answer, Occlusion::hidden);
+
+  EXPECT_EQ(to_pixel(viewport(f), occluder, occluder_vertices), Status::ok);
+  EXPECT_EQ(to_pixel(viewport(f), box, box_vertices), Status::ok);
+  std::array<Draw, 2> draws;
+  draws[0].vertices = occluder_vertices, draws[0].indices = triangle;
+  draws[1].vertices = box_vertices, draws[1].indices = quad;
+  std::vector<std::uint32_t> index(static_cast<std::size_t>(160 * f * 90 * f));
+  Target target;
+  target.width = 160 * f, target.height = 90 * f, target.index = index;
+  draws[1].first_index = 1;
+  EXPECT_EQ(render(target, draws), Status::ok);
+  int seen = 0;
+  for (std::size_t s = 0; s < index.size(); ++s) {
+    if (index[s] == 0 || index[s] == kNoTriangle) continue;
+    ++seen;
+    EXPECT_EQ(s % static_cast<std::size_t>(target.width), 971u);
+    EXPECT_EQ(s / static_cast<std::size_t>(target.width), 960u);
+  }
+  return seen;
+}
+
+TEST(Resolutions, AnotherFactor) {
+  for (const float w : {1.0f, 0x1p-10f}) {
+    EXPECT_EQ(seen_at_factor(8, w), 0);
+    EXPECT_EQ(seen_at_factor(12, w), 1);
+    EXPECT_EQ(seen_at_factor(16, w), 0);
+  }
+}
+
 // --- Each clause is needed
 
 // Does T7 find the wrong clause in this case?

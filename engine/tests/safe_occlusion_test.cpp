@@ -494,5 +494,54 @@ TEST(SafeOcclusion, SeesThroughGapsBetweenCentres) {
   EXPECT_EQ(answer_of(safe, {4, 2, 6, 6, 0.75f}), Occlusion::hidden);
 }
 
+// Where T7 does not speak: with a factor of 3 to_pixel rounds an edge to one side of a pixel's corner in the buffer, and to
+// the other side in the picture, and there a sample is seen that the buffer has as hidden. With a factor of 4 it does not.
+TEST(SafeOcclusion, OtherFactorsThanPowersOfTwoAreNotPromised) {
+  constexpr float kW = 1.2f, kLeft = -kW / 4;
+  const ClipVertex wall[] = {{kLeft, -2, 0.6f, kW}, {2, -2, 0.6f, kW}, {kLeft, 2, 0.6f, kW}, {2, 2, 0.6f, kW}};
+  const ClipVertex box[] = {{-0.25f, -0.25f, 0.75f, 1}, {0, -0.25f, 0.75f, 1},      {-0.25f, 0.25f, 0.75f, 1},
+                            {0, 0.25f, 0.75f, 1},       {-0.25f, -0.25f, 0.75f, 1}, {0, -0.25f, 0.75f, 1},
+                            {-0.25f, 0.25f, 0.75f, 1},  {0, 0.25f, 0.75f, 1}};
+  const std::uint32_t indices[] = {0, 1, 2, 2, 1, 3};
+  const auto project = [](std::span<const ClipVertex> clip, float width, float height) {
+    std::vector<Vertex> vertices(clip.size());
+    Viewport viewport;
+    viewport.width = width, viewport.height = height;
+    EXPECT_EQ(to_pixel(viewport, clip, vertices), Status::ok);
+    return vertices;
+  };
+  OccluderMesh mesh;
+  ASSERT_EQ(mesh.prepare({&wall[0].x, 16}, indices, 4), Status::ok);
+  const auto answer = [&](int width, int height) {
+    const auto w = static_cast<float>(width), h = static_cast<float>(height);
+    const std::vector<Vertex> vertices = project(wall, w, h), corners = project(box, w, h);
+    SafeOcclusionBuffer buffer;
+    EXPECT_EQ(buffer.resize(width, height), Status::ok);
+    Occluder occluder;
+    occluder.mesh = &mesh, occluder.vertices = vertices;
+    EXPECT_EQ(buffer.draw({&occluder, 1}), Status::ok);
+    OcclusionBox asked;
+    std::copy(corners.begin(), corners.end(), asked.corners);
+    auto said = Occlusion::outside;
+    EXPECT_EQ(buffer.query({&asked, 1}, {&said, 1}), Status::ok);
+    return said;
+  };
+  EXPECT_EQ(answer(480, 270), Occlusion::visible);
+  EXPECT_EQ(answer(640, 360), Occlusion::hidden);
+
+  const std::vector<Vertex> vertices = project(wall, 1920, 1080), corners = project(box, 1920, 1080);
+  std::vector<std::uint32_t> index(8 * 8 * 16);
+  Target target;
+  target.width = target.height = 8, target.samples = 16, target.index = index;
+  target.origin = {716, 536};
+  Draw draws[2];
+  draws[0].vertices = vertices, draws[1].vertices = corners;
+  draws[0].indices = draws[1].indices = indices;
+  draws[1].first_index = 2;
+  ASSERT_EQ(render(target, draws), Status::ok);
+  const std::size_t at_its_left_border = 12;                    // the sample at (0, 8/16)
+  EXPECT_GE(index[(8 * 4 + 4) * 16 + at_its_left_border], 2u);  // of pixel 720, three times pixel 240
+}
+
 }  // namespace
 }  // namespace surefill

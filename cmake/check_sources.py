@@ -67,7 +67,7 @@ ROOMS = {
 LONGEST = 700  # lines
 MADE = {"reference/surefill_reference.cpp": "reference/amalgamate.py"}  # files of any length, and what makes them
 FORMATTED = {".c", ".cpp", ".h", ".hpp"}
-CODE = FORMATTED | {".cmake", ".in", ".ml", ".py", ".sh", ".v"}
+CODE = FORMATTED | {".cmake", ".in", ".ml", ".mjs", ".py", ".sh", ".v"}
 INCLUDE = re.compile(r'\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)')
 
 

@@ -28,12 +28,14 @@ extern "C" {
 #define SUREFILL_ADAPTER2_HAS(type, pointer, member) \
   ((pointer)->size >= offsetof(type, member) + sizeof(((const type*)0)->member))
 
-/* Features beside those of version 1: bit 19. The fill rules of draws may be CLOSED and OPEN, too (C3). */
+/* Features beside those of version 1: bits 19 and 20. The fill rules of draws may be CLOSED and OPEN, too (C3); draws of lines
+ * and points may have a width (M7). */
 #define SUREFILL_ADAPTER2_CLOSED_AND_OPEN (UINT64_C(1) << 19)
+#define SUREFILL_ADAPTER2_WIDTHS (UINT64_C(1) << 20)
 enum { SUREFILL_ADAPTER2_CLOSED = 8, SUREFILL_ADAPTER2_OPEN = 9 }; /* after the eight of version 1 */
 
-/* Primitives. `info.primitives` has a bit 1 << KIND for each; triangles are always asked for, and the others by no certify
- * yet. A primitive has 3, 2 or 1 indices. */
+/* Primitives (M7). `info.primitives` has a bit 1 << KIND for each; triangles are always asked for, lines and points where they are
+ * claimed. A primitive has 3, 2 or 1 indices. */
 enum { SUREFILL_ADAPTER2_TRIANGLES = 0, SUREFILL_ADAPTER2_LINES = 1, SUREFILL_ADAPTER2_POINTS = 2 };
 
 /* Filled in by open; comes zeroed but for its size. Strings as in version 1. A limit of 0 is none. */
@@ -102,6 +104,31 @@ enum {
   SUREFILL_ADAPTER2_DEPTH_UNORM16 = 3
 };
 
+/* Lines and points: R17 to R21. */
+enum {
+  SUREFILL_ADAPTER2_LINE_DIAMOND = 0,
+  SUREFILL_ADAPTER2_LINE_PARALLELOGRAM = 1,
+  SUREFILL_ADAPTER2_LINE_RECTANGLE = 2,
+  SUREFILL_ADAPTER2_LINE_TOLERANT = 3,
+  SUREFILL_ADAPTER2_LINE_UNKNOWN = 4
+};
+enum {
+  SUREFILL_ADAPTER2_LEFT_OUT_LAST = 0,
+  SUREFILL_ADAPTER2_LEFT_OUT_FIRST = 1,
+  SUREFILL_ADAPTER2_LEFT_OUT_NONE = 2,
+  SUREFILL_ADAPTER2_LEFT_OUT_BOTH = 3
+};
+enum { SUREFILL_ADAPTER2_TIES_OPEN = 8 }; /* after the eight fill rules of version 1 */
+
+typedef struct surefill_adapter2_outline {
+  uint32_t ties; /* SUREFILL_ADAPTER_TOP_LEFT, ..., or SUREFILL_ADAPTER2_TIES_OPEN (R20) */
+  uint32_t unused;
+  double blur;                    /* R17 */
+  double border;                  /* R20, and so on */
+  double least_width, most_width; /* 0, infinity */
+  double width_within;
+} surefill_adapter2_outline;
+
 typedef struct surefill_adapter2_model {
   uint32_t size;
   uint32_t front_owned, front_open; /* sides that own their samples, and those of which it is not said (R6) */
@@ -119,6 +146,11 @@ typedef struct surefill_adapter2_model {
   uint32_t depth_format; /* R11 */
   uint32_t minus_one_to_one;
   uint32_t later_wins; /* of equal depths: LEQUAL, GEQUAL (R12) */
+  uint32_t thin_lines, wide_lines; /* SUREFILL_ADAPTER2_LINE_DIAMOND and _PARALLELOGRAM, ... (R18) */
+  uint32_t left_out;               /* SUREFILL_ADAPTER2_LEFT_OUT_LAST, ... (R19) */
+  uint32_t whole_pixels;           /* of ends (R17) */
+  surefill_adapter2_outline lines, points;
+  uint32_t points_unknown, points_clipped_whole; /* R21 */
 } surefill_adapter2_model;
 
 typedef struct surefill_adapter2_attribute {
@@ -146,6 +178,8 @@ typedef struct surefill_adapter2_draw {
   int32_t scissor[4];
   uint32_t has_grid;
   uint32_t grid_bits, grid_rounding, grid_offset_x, grid_offset_y;
+  float width; /* of lines, or the side of points; 0: none */
+  uint32_t unused;
 } surefill_adapter2_draw;
 
 /* Draws and attributes are behind pointers, since an array of what can grow has no fixed step. */

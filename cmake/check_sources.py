@@ -41,7 +41,7 @@ ROOMS = {
     "elsewhere": [*ENGINE, "corpus", "properties"],
     "certify/adapter.h": [],
     "certify/adapter2.h": ["certify/adapter.h"],
-    "certify/drivers": ["certify/adapter.h"],  # plugins: all they know of the suite
+    "certify/drivers": ["certify/adapter.h", "certify/adapter2.h"],  # plugins: all they know of the suite
     "examples/rivals": ["certify/adapter.h", "certify/adapter2.h"],  # the same
     "certify/judge": [*ENGINE, "corpus", "oracle/edges.hpp", "oracle/model.hpp"],  # a library without an oracle, files or processes
     "certify": [*SUITE, "oracle/model.hpp", "textbook", "certify/adapter.h", "certify/adapter2.h", "certify/judge",

@@ -1,132 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "oracle/model.hpp"
 
-#include <gmpxx.h>
-
 #include <algorithm>
 #include <cmath>
 
 #include "oracle/coverage.hpp"
 #include "oracle/edges.hpp"
 #include "oracle/exact.hpp"
+#include "oracle/positions.hpp"
 
 namespace surefill::oracle {
 
 namespace {
 
-using Rational = mpq_class;
-
-constexpr double kFarthest = 1 << 14;  // pixels: R7
 constexpr double kUnclear = 1.0 / 16;  // R9
 constexpr long double kThin = 0x1p-20L;
-
-Rational floor_of(const Rational& value) {
-  Integer result;
-  mpz_fdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), value.get_den_mpz_t());
-  return result;
-}
-
-// R5's integer k.
-Rational rounded(const Rational& value, Rounding rounding) {
-  const Rational below = floor_of(value), part = value - below, half(1, 2);
-  switch (rounding) {
-    case Rounding::floor:
-      return below;
-    case Rounding::ceiling:
-      return part == 0 ? below : below + 1;
-    case Rounding::truncate:
-      return value >= 0 || part == 0 ? below : below + 1;
-    default:
-      break;
-  }
-  if (part != half) return part < half ? below : below + 1;
-  const bool even = mpz_even_p(below.get_num_mpz_t()) != 0;
-  const bool down = rounding == Rounding::nearest_down || (rounding == Rounding::nearest_even && even) ||
-                    (rounding == Rounding::nearest_away && value < 0);
-  return down ? below : below + 1;
-}
-
-Rational snapped(const Rational& position, const AxisModel& axis) {
-  if (axis.bits < 0) return position;
-  const Rational offset(axis.grid_offset), step(std::ldexp(1.0, -axis.bits));
-  return offset + rounded((position - offset) / step, axis.rounding) * step;
-}
-
-// a + b, if that is a double (Knuth's TwoSum).
-bool add_exactly(double a, double b, double& sum) {
-  sum = a + b;
-  const double t = sum - a;
-  return (a - (sum - t)) + (b - t) == 0;
-}
-
-// The same as `snapped` in double, if nothing is rounded on the way.
-bool snapped_exactly(double position, const AxisModel& axis, double& result) {
-  result = position;
-  if (axis.bits < 0) return true;
-  double scaled = 0;
-  if (!add_exactly(position, -axis.grid_offset, scaled)) return false;
-  scaled = std::ldexp(scaled, axis.bits);
-  if (scaled != 0 && std::abs(scaled) < 0x1p-900) return false;
-  const double below = std::floor(scaled);
-  double part = 0;
-  if (!add_exactly(scaled, -below, part)) return false;
-  double k = part == 0 ? below : below + 1;
-  switch (axis.rounding) {
-    case Rounding::floor:
-      k = below;
-      break;
-    case Rounding::ceiling:
-      break;
-    case Rounding::truncate:
-      if (scaled >= 0) k = below;
-      break;
-    default: {
-      const bool down = axis.rounding == Rounding::nearest_down ||
-                        (axis.rounding == Rounding::nearest_even && std::fmod(below, 2) == 0) ||
-                        (axis.rounding == Rounding::nearest_away && scaled < 0);
-      if (part < 0.5 || (part == 0.5 && down)) k = below;
-    }
-  }
-  return add_exactly(axis.grid_offset, std::ldexp(k, -axis.bits), result);
-}
-
-// All positions that a vertex may come to, on one axis: R3 to R5.
-struct Interval {
-  double near_low = 0, near_high = 0;  // the ends, rounded
-  bool exact = false;                  // and not rounded; else they are here:
-  Rational low, high;
-  bool point = true;
-  bool is_point() const { return point; }
-};
-
-// False beyond 2^14 pixels.
-bool place_vertex(const AxisModel& axis, int length, float numerator, float w, Interval& result) {
-  int exponent = 0;
-  const bool divided = std::frexp(w, &exponent) != 0.5f;
-  const double blur = divided ? std::max(axis.blur, axis.divided_blur) : axis.blur;
-  if (!divided && axis.lacks == 0) {
-    double q = 0, low = 0, high = 0;
-    if (add_exactly(static_cast<double>(numerator) / w, axis.moved, q) && add_exactly(q, -blur, low) &&
-        add_exactly(q, blur, high) && snapped_exactly(low, axis, result.near_low) &&
-        snapped_exactly(high, axis, result.near_high)) {
-      result.exact = true;
-      result.point = result.near_low == result.near_high;
-      return std::abs(q) <= kFarthest;
-    }
-  }
-  Rational q(numerator);
-  q /= Rational(w);
-  if (axis.lacks != 0) q *= (length - Rational(axis.lacks)) / length;
-  if (axis.moved != 0) q += Rational(axis.moved);
-  if (abs(q) > kFarthest) return false;
-  result.exact = false;
-  result.low = snapped(q - Rational(blur), axis);
-  result.high = blur == 0 ? result.low : snapped(q + Rational(blur), axis);
-  result.near_low = result.low.get_d();
-  result.near_high = result.high.get_d();
-  result.point = result.low == result.high;
-  return true;
-}
 
 struct Box {
   Interval x, y;
@@ -148,14 +36,6 @@ struct Signs {
   bool all_negative() const { return negative && !positive && !zero; }
   bool all_zero() const { return zero && !positive && !negative; }
 };
-
-Rational end_of(const Interval& interval, unsigned which) {
-  if (interval.exact) return Rational(which % 2 == 0 ? interval.near_low : interval.near_high);
-  return which % 2 == 0 ? interval.low : interval.high;
-}
-double near_end(const Interval& interval, unsigned which) {
-  return which % 2 == 0 ? interval.near_low : interval.near_high;
-}
 
 // Sample n of pixel (x, y), which is rarely wanted as more than a double.
 struct Sample {

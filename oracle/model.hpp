@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // What somebody else's rasterizer does, as far as it is known, and which samples a triangle covers under it: section 11
-// of docs/semantics.md (R1 to R10). Plain data, and one function over it; of the engine, the public types alone.
+// of docs/semantics.md (R1 to R10, R17 to R21). Plain data, and functions over it; of the engine, the public types alone.
 #ifndef SUREFILL_ORACLE_MODEL_HPP
 #define SUREFILL_ORACLE_MODEL_HPP
 
@@ -87,6 +87,39 @@ enum class AtVertices : std::uint8_t { as_edges, covered, not_covered, open };  
 enum class Turned : std::uint8_t { open, as_grid, nothing };                    // R8
 enum class DepthFormat : std::uint8_t { float32, float64, unorm24, unorm16 };   // R11
 
+// R18 to R21: lines and points.
+enum class LineShape : std::uint8_t { diamond, parallelogram, rectangle, tolerant, unknown };
+enum class LeftOut : std::uint8_t { last, first, none, both };  // R19: ends of a diamond
+
+// R20.
+struct Outline {
+  std::optional<FillRule> ties = FillRule::top_left;  // one of the eight; none: open
+  double border = 0;
+  double least_width = 0, most_width = std::numeric_limits<double>::infinity();
+  double width_within = 0;
+
+  friend bool operator==(const Outline&, const Outline&) = default;
+};
+
+struct LineModel {
+  LineShape thin = LineShape::diamond, wide = LineShape::parallelogram;
+  LeftOut left_out = LeftOut::last;
+  bool whole_pixels = false;
+  double blur = 0;
+  Outline outline;
+
+  friend bool operator==(const LineModel&, const LineModel&) = default;
+};
+
+struct PointModel {
+  bool known = true;
+  bool clipped_whole = false;
+  double blur = 0;
+  Outline outline;
+
+  friend bool operator==(const PointModel&, const PointModel&) = default;
+};
+
 struct Model {
   AxisModel x, y;
   Owners front = owners_of(FillRule::top_left), back = front;
@@ -103,6 +136,8 @@ struct Model {
   bool later_wins = false;  // LEQUAL, GEQUAL
   float clear = std::numeric_limits<float>::infinity();
   double distance = 0x1p-4;  // p
+  LineModel lines;
+  PointModel points;
 
   friend bool operator==(const Model&, const Model&) = default;
 };
@@ -124,6 +159,11 @@ enum class Cover : std::uint8_t { no, yes, open };
 // The answer for each sample of a target of this size, sample n of pixel (x, y) being element (y width + x) samples + n.
 // A triangle with a NaN or an infinity covers nothing (B1). Depth has no part: `clipped` is the caller's.
 std::vector<Cover> cover(const Model& model, int width, int height, int samples, const std::array<Vertex, 3>& triangle);
+
+// The same for a line, thin if it has no width, and for a point (R17 to R21), with one sample a pixel.
+std::vector<Cover> cover_line(const Model& model, int width, int height, const std::array<Vertex, 2>& ends,
+                              std::optional<float> line_width);
+std::vector<Cover> cover_point(const Model& model, int width, int height, const Vertex& vertex, float size);
 
 // R8: may snapping or blur turn the triangle over, or lay it flat? True, too, where R9 leaves it open.
 bool may_turn(const Model& model, int width, int height, const std::array<Vertex, 3>& triangle);

@@ -13,9 +13,11 @@
 #include <utility>
 
 #include "certify/commands/options.hpp"
+#include "certify/judge/lines.hpp"
 #include "certify/judge/words.hpp"
 #include "certify/report/certificate.hpp"
 #include "certify/report/report_files.hpp"
+#include "certify/rivals/line_checks.hpp"
 #include "certify/rivals/names.hpp"
 #include "certify/rivals/rival_checks.hpp"
 #include "certify/run/checks.hpp"
@@ -112,6 +114,11 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
                 : subject.terms.known ? judge::describe(subject.terms.model)
                                       : "unknown";
   if (found.known) facts.departures = judge::departures(found.model);
+  if (found.known) {
+    for (const std::string& sentence : judge::describe_lines(found.model, primitives_of(rival))) {
+      facts.departures.push_back(sentence);
+    }
+  }
   if (!found.shape.empty() && found.known) facts.departures.insert(facts.departures.begin(), found.shape);
   facts.open = found.open;
   facts.turns = judge::turns_text(found.turns);

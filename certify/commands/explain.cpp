@@ -40,7 +40,7 @@ constexpr const char* kTileStyle[] = {"fill=\"#f7d4d0\" stroke=\"#c98d86\" strok
                                       "fill=\"#cfe9cf\" stroke=\"#6fa46f\" stroke-width=\"0.8\"",   // accept
                                       "fill=\"#fbf0c4\" stroke=\"#c4ab55\" stroke-width=\"0.8\""};  // partial
 
-Explained explained(const corpus::Scene& scene, const std::string& file) {
+void check_shown(const corpus::Scene& scene, const std::string& file) {
   if (scene.width > kLargestTarget || scene.height > kLargestTarget) {
     throw std::runtime_error(
         fmt::format("{}: explain shows targets of up to {} pixels each way", file, kLargestTarget));
@@ -52,6 +52,10 @@ Explained explained(const corpus::Scene& scene, const std::string& file) {
   if (const Status status = validate(frame.target(), frame.draws()); status != Status::ok) {
     throw std::runtime_error(file + ": " + status_text(status));
   }
+}
+
+Explained explained(const corpus::Scene& scene, const std::string& file) {
+  const corpus::Frame frame(scene, {true, false, false, false, false, false, false});
   Explained result{scene.width, scene.height, scene.samples, {}, 0};
   for (const Draw& draw : frame.draws()) {
     if (draw.primitive != Primitive::triangles) continue;
@@ -68,7 +72,12 @@ Explained explained(const corpus::Scene& scene, const std::string& file) {
       }
     }
   }
-  if (result.triangles.empty()) throw std::runtime_error(file + ": no triangle to explain: none is finite with D != 0");
+  if (result.triangles.empty()) {
+    const bool others = std::any_of(frame.draws().begin(), frame.draws().end(),
+                                    [](const Draw& draw) { return draw.primitive != Primitive::triangles; });
+    throw std::runtime_error(file + (others ? ": no triangle to explain; --view lines shows lines and points"
+                                            : ": no triangle to explain: none is finite with D != 0"));
+  }
   return result;
 }
 
@@ -421,12 +430,18 @@ std::string explain(const ExplainOptions& options) {
   }
   const OutputFile output{"-o", options.output, {".svg", ".png"}};
   check_outputs({&output, 1}, {&options.input, 1});
-  if (options.view == "affine-w" || options.view == "lines") {
+  if (options.view == "affine-w" || (options.view == "lines" && options.input.empty())) {
     write_picture(options.view == "lines" ? line_view() : affine_w_view(), options.output);
     return "";
   }
   if (options.input.empty()) throw std::runtime_error("explain: a SCENE is needed");
-  Explained scene = explained(corpus::read_scene_file(options.input), options.input);
+  const corpus::Scene given = corpus::read_scene_file(options.input);
+  check_shown(given, options.input);
+  if (options.view == "lines") {
+    write_picture(scene_line_view(given, options.input, options.triangle), options.output);
+    return "";
+  }
+  Explained scene = explained(given, options.input);
   if (options.triangle < 0 || static_cast<std::size_t>(options.triangle) >= scene.triangles.size()) {
     throw std::runtime_error(
         fmt::format("--triangle {}: the scene has {}, from 0", options.triangle, scene.triangles.size()));

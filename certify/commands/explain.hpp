@@ -57,6 +57,8 @@ std::string painter_view(const Explained& scene);
 std::string hierarchical_z_view(const Explained& scene);
 std::string codec_view(const Explained& scene);
 std::string line_view();
+// Of a scene's lines and points; `chosen` is the one that is looked at closely.
+std::string scene_line_view(const corpus::Scene& scene, const std::string& file, int chosen);
 
 // Text: visited and covered samples, tiles tested and edge evaluations of each traversal, on triangles of several
 // kinds.

@@ -13,7 +13,7 @@
 #include <string>
 #include <vector>
 
-#include "certify/adapter.h"
+#include "certify/adapter2.h"
 
 namespace surefill::drivers {
 
@@ -44,10 +44,24 @@ std::string argument(const Arguments& arguments, const std::string& key, const s
 
 constexpr std::size_t kMaxAttributes = 4;
 
+// What a draw of version 2 of the adapter says beyond version 1, whose structs hold the rest: triangles, lines or points, and
+// their width; 0: none.
+struct PrimitiveOf {
+  std::uint32_t kind = SUREFILL_ADAPTER2_TRIANGLES;
+  float width = 0;
+  std::uint32_t corners() const { return 3 - kind; }
+  float pixels() const { return width > 0 ? width : 1; }
+};
+using Primitives = std::vector<PrimitiveOf>;  // of each draw; empty: triangles
+inline PrimitiveOf primitive_of(const Primitives& primitives, std::uint32_t draw) {
+  return primitives.empty() ? PrimitiveOf{} : primitives[draw];
+}
+
 // The vertices as the shaders take them: position (4 floats), identifier, corner, kMaxAttributes times 4 floats at
 // most.
 struct DrawRange {
   const surefill_adapter_draw* draw;
+  PrimitiveOf primitive;
   std::uint32_t first, count;  // vertices
   std::array<std::int32_t, kMaxAttributes> interpolation{};
 };
@@ -59,11 +73,11 @@ struct VertexStream {
 
 // The whole frame from its last triangle to its first, those of a draw by identifier: with the test LESS_OR_EQUAL the
 // visible triangle is then V1's and V3's, and a fragment at the depth that the buffer was cleared to is seen.
-VertexStream vertex_stream(const surefill_adapter_scene& scene, bool attributes);
+VertexStream vertex_stream(const surefill_adapter_scene& scene, const Primitives& primitives, bool attributes);
 
 // A depth buffer holds 0 to 1. Without depth clipping and clamping (depth mode any), depths outside come out clamped:
 // such scenes have coverage alone. True where no depth can be outside.
-bool depths_within_buffer(const surefill_adapter_scene& scene);
+bool depths_within_buffer(const surefill_adapter_scene& scene, const Primitives& primitives);
 
 // Does the image ask for more than the count?
 bool asks_for_visible(const surefill_adapter_image& image);
@@ -79,7 +93,10 @@ class Driver {
   Driver& operator=(const Driver&) = delete;
   virtual ~Driver() = default;
   virtual surefill_adapter_info info() const = 0;
-  virtual void draw(const surefill_adapter_scene& scene, const surefill_adapter_image& image) = 0;
+  // Beside triangles: bits 1 << SUREFILL_ADAPTER2_LINES, ...
+  virtual std::uint32_t primitives() const = 0;
+  virtual void draw(const surefill_adapter_scene& scene, const Primitives& primitives,
+                    const surefill_adapter_image& image) = 0;
 };
 
 // Draws scenes whose edges pass every sample at a distance that any driver keeps, in each state that the adapter

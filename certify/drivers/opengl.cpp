@@ -207,10 +207,13 @@ class OpenGl : public Driver {
   }
 
   surefill_adapter_info info() const override { return info_; }
+  std::uint32_t primitives() const override { return 1u << SUREFILL_ADAPTER2_LINES | 1u << SUREFILL_ADAPTER2_POINTS; }
 
-  void draw(const surefill_adapter_scene& scene, const surefill_adapter_image& image) override {
+  void draw(const surefill_adapter_scene& scene, const Primitives& primitives,
+            const surefill_adapter_image& image) override {
+    check_primitives(scene, primitives);
     const bool attributes = image.attributes && scene.attribute_count > 0;
-    const VertexStream stream = vertex_stream(scene, attributes);
+    const VertexStream stream = vertex_stream(scene, primitives, attributes);
     set_vertices(stream, attributes ? scene.attribute_count : 0);
     if (image.count) draw_count(scene, image, stream);
     if (asks_for_visible(image)) draw_visible(scene, image, stream, attributes);
@@ -274,6 +277,14 @@ class OpenGl : public Driver {
                      SUREFILL_ADAPTER_DEPTH_GREATER | SUREFILL_ADAPTER_IDENTIFIERS | SUREFILL_ADAPTER_NOPERSPECTIVE |
                      SUREFILL_ADAPTER_FLAT;
     if (!claim.empty()) info_.features |= SUREFILL_ADAPTER_NON_FINITE;
+    glGetFloatv(GL_ALIASED_LINE_WIDTH_RANGE, line_widths_.data());
+    glGetFloatv(GL_POINT_SIZE_RANGE, point_sizes_.data());
+    // Some contexts refuse wide lines, whatever they report.
+    glLineWidth(line_widths_[1]);
+    if (glGetError() != GL_NO_ERROR) line_widths_ = {1, 1};
+    if (line_widths_[1] > 1 && point_sizes_[1] > 1) {
+      info_.features |= static_cast<std::uint32_t>(SUREFILL_ADAPTER2_WIDTHS);
+    }
     info_.form = SUREFILL_ADAPTER_FORM_CLIP;
     info_.model.kind = SUREFILL_ADAPTER_MODEL_UNKNOWN;
     info_.model.profile = SUREFILL_ADAPTER_PROFILE_OPENGL;
@@ -357,10 +368,25 @@ class OpenGl : public Driver {
     }
   }
 
+  // With several samples a pixel, lines are other shapes: nobody judges them.
+  void check_primitives(const surefill_adapter_scene& scene, const Primitives& primitives) const {
+    for (const PrimitiveOf& primitive : primitives) {
+      if (primitive.kind == SUREFILL_ADAPTER2_TRIANGLES) continue;
+      if (scene.samples > 1) throw NotJudged("lines and points with several samples a pixel");
+      const std::array<float, 2>& range = primitive.kind == SUREFILL_ADAPTER2_LINES ? line_widths_ : point_sizes_;
+      if (!(primitive.pixels() >= range[0] && primitive.pixels() <= range[1])) {
+        throw NotJudged("a width beyond the driver's range");
+      }
+    }
+  }
+
   // Every state on which a draw depends, whatever it was before.
-  void set_state(const surefill_adapter_scene& scene, const surefill_adapter_draw& draw, bool visible) {
+  void set_state(const surefill_adapter_scene& scene, const surefill_adapter_draw& draw, const PrimitiveOf& primitive,
+                 bool visible) {
     constexpr GLenum kOff[] = {GL_POLYGON_OFFSET_FILL,
                                GL_POLYGON_SMOOTH,
+                               GL_LINE_SMOOTH,
+                               GL_PROGRAM_POINT_SIZE,
                                GL_STENCIL_TEST,
                                GL_SAMPLE_ALPHA_TO_COVERAGE,
                                GL_SAMPLE_ALPHA_TO_ONE,
@@ -379,6 +405,8 @@ class OpenGl : public Driver {
     glEnable(GL_MULTISAMPLE);
     glPolygonMode(GL_FRONT_AND_BACK, GL_FILL);
     glProvokingVertex(GL_FIRST_VERTEX_CONVENTION);
+    glLineWidth(primitive.kind == SUREFILL_ADAPTER2_LINES ? primitive.pixels() : 1);
+    glPointSize(primitive.kind == SUREFILL_ADAPTER2_POINTS ? primitive.pixels() : 1);
     if (upper_left_) glClipControl(GL_UPPER_LEFT, GL_ZERO_TO_ONE);
     const auto height = static_cast<GLint>(scene.height), full = static_cast<GLint>(draw.viewport_height);
     const auto left = static_cast<GLint>(draw.viewport_x), top = static_cast<GLint>(draw.viewport_y);
@@ -508,9 +536,10 @@ class OpenGl : public Driver {
                     bool visible) {
     for (const DrawRange& batch : stream.batches) {
       if (batch.count == 0) continue;
-      set_state(scene, *batch.draw, visible);
+      constexpr GLenum kModes[] = {GL_TRIANGLES, GL_LINES, GL_POINTS};
+      set_state(scene, *batch.draw, batch.primitive, visible);
       if (interpolation >= 0) glUniform4iv(interpolation, 1, batch.interpolation.data());
-      glDrawArrays(GL_TRIANGLES, static_cast<GLint>(batch.first), static_cast<GLsizei>(batch.count));
+      glDrawArrays(kModes[batch.primitive.kind], static_cast<GLint>(batch.first), static_cast<GLsizei>(batch.count));
     }
   }
 
@@ -595,6 +624,7 @@ class OpenGl : public Driver {
   int version_ = 0;
   bool upper_left_ = false;
   std::vector<std::uint32_t> sample_counts_;
+  std::array<float, 2> line_widths_{1, 1}, point_sizes_{1, 1};
   surefill_adapter_info info_{};
   GLuint vertex_array_ = 0, vertex_buffer_ = 0, word_buffer_ = 0, count_program_ = 0;
   std::array<GLuint, kMaxAttributes + 1> visible_programs_{};

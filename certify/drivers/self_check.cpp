@@ -71,7 +71,7 @@ class SelfCheck {
     for (std::size_t k = 0; k < 3; ++k) value_images[k] = values.data() + k * 2 * samples;
     const surefill_adapter_image image{count.data(), index.data(), depth.data(), barycentrics.data(),
                                        value_images.data()};
-    driver_.draw(scene_, image);
+    driver_.draw(scene_, primitives_, image);
     const bool greater = scene_.depth_test == SUREFILL_ADAPTER_GREATER;
     for (std::uint32_t y = 0; y < kSize; ++y) {
       for (std::uint32_t x = 0; x < kSize; ++x) {
@@ -169,10 +169,62 @@ class SelfCheck {
   surefill_adapter_info info_;
   surefill_adapter_scene scene_{};
   surefill_adapter_draw draw_{};
+  Primitives primitives_;
   std::vector<float> pixel_, clip_, values_;
   std::vector<std::uint32_t> indices_, identifiers_;
   std::array<surefill_adapter_attribute, 3> attributes_{};
 };
+
+// A level line along a row of pixel centres, or a point beside one, alone: which pixels are drawn for certain, and which
+// are not. Every standard agrees on these.
+std::string check_primitive(Driver& driver, std::uint32_t kind) {
+  const surefill_adapter_info info = driver.info();
+  const bool line = kind == SUREFILL_ADAPTER2_LINES;
+  const std::array<Point, 2> ends =
+      line ? std::array<Point, 2>{{{2.25, 9.5}, {12.25, 9.5}}} : std::array<Point, 2>{{{5.25, 9.25}, {5.25, 9.25}}};
+  std::vector<float> pixel, clip;
+  for (const Point& p : ends) {
+    const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y);
+    pixel.insert(pixel.end(), {x, y, 0.5f, 1});
+    clip.insert(clip.end(), {x / (kSize / 2) - 1, 1 - y / (kSize / 2),
+                             info.model.depth_range == SUREFILL_ADAPTER_ZERO_TO_ONE ? 0.5f : 0.0f, 1});
+  }
+  const std::array<std::uint32_t, 2> indices{0, 1};
+  const std::uint32_t identifier = 4;
+  surefill_adapter_draw draw{};
+  draw.vertex_count = 2;
+  draw.triangle_count = draw.clip_is_exact = draw.depth_write = 1;
+  draw.pixel = pixel.data();
+  draw.clip = clip.data();
+  draw.indices = indices.data();
+  draw.identifiers = &identifier;
+  draw.viewport_width = draw.viewport_height = kSize;
+  draw.viewport_far = 1;
+  draw.viewport_depth_range = info.model.depth_range;
+  surefill_adapter_scene scene{};
+  scene.width = scene.height = kSize;
+  scene.samples = scene.draw_count = 1;
+  scene.draws = &draw;
+  std::vector<std::uint32_t> count(std::size_t{kSize} * kSize), index(count.size());
+  surefill_adapter_image image{};
+  image.count = count.data();
+  image.index = index.data();
+  driver.draw(scene, {{kind, 0}}, image);
+  for (std::uint32_t y = 0; y < kSize; ++y) {
+    for (std::uint32_t x = 0; x < kSize; ++x) {
+      const std::uint32_t row = info.model.y == SUREFILL_ADAPTER_Y_UP ? kSize - 1 - y : y;
+      const std::size_t s = std::size_t{row} * kSize + x;
+      const bool inside = line ? y == 9 && x >= 4 && x <= 10 : x == 5 && y == 9;
+      const bool outside = line ? y < 8 || y > 10 || x < 1 || x > 13 : !inside;
+      const bool covered = count[s] == 1 && index[s] == identifier, empty = count[s] == 0;
+      if ((inside && !covered) || (outside && !empty)) {
+        return std::string(line ? "a line" : "a point") + ": pixel (" + std::to_string(x) + ", " + std::to_string(y) +
+               ") has count " + std::to_string(count[s]) + "; some state is not what the adapter needs";
+      }
+    }
+  }
+  return "";
+}
 
 }  // namespace
 
@@ -204,6 +256,9 @@ std::string self_check(Driver& driver) {
              }),
        check("depth test greater", [](SelfCheck& c) { c.scene().depth_test = SUREFILL_ADAPTER_GREATER; }),
        check("depth clipping", [](SelfCheck& c) { c.draw().depth_mode = SUREFILL_ADAPTER_CLIP_DEPTH; })});
+  for (const std::uint32_t kind : {std::uint32_t{SUREFILL_ADAPTER2_LINES}, std::uint32_t{SUREFILL_ADAPTER2_POINTS}}) {
+    if (problem.empty() && (driver.primitives() >> kind & 1u) != 0) problem = check_primitive(driver, kind);
+  }
   if (!(driver.info().features & SUREFILL_ADAPTER_SAMPLES)) return problem;
   for (const std::uint32_t samples : {2u, 4u, 8u, 16u}) {
     if (!problem.empty()) break;

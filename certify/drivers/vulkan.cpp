@@ -63,14 +63,17 @@ class Vulkan : public Driver, private VulkanDevice {
   }
 
   surefill_adapter_info info() const override { return info_; }
+  std::uint32_t primitives() const override { return 1u << SUREFILL_ADAPTER2_LINES | 1u << SUREFILL_ADAPTER2_POINTS; }
 
-  void draw(const surefill_adapter_scene& scene, const surefill_adapter_image& image) override {
+  void draw(const surefill_adapter_scene& scene, const Primitives& primitives,
+            const surefill_adapter_image& image) override {
+    check_primitives(scene, primitives);
     if (scene.samples > 1 &&
         std::find(sample_counts_.begin(), sample_counts_.end(), scene.samples) == sample_counts_.end()) {
       throw NotJudged(std::to_string(scene.samples) + " samples a pixel");
     }
     const std::uint32_t attributes = image.attributes ? scene.attribute_count : 0;
-    const VertexStream stream = vertex_stream(scene, attributes > 0);
+    const VertexStream stream = vertex_stream(scene, primitives, attributes > 0);
     put_vertices(stream);
     if (image.count) {
       const std::vector<std::vector<std::uint32_t>> planes = run(scene, stream, false, 0);
@@ -108,10 +111,12 @@ class Vulkan : public Driver, private VulkanDevice {
 
  private:
   void make_layouts() {
-    VkPushConstantRange modes{VK_SHADER_STAGE_FRAGMENT_BIT, 0, 16};
+    // The interpolation of attributes, and the size of points.
+    VkPushConstantRange both[] = {{VK_SHADER_STAGE_FRAGMENT_BIT, 0, 16}, {VK_SHADER_STAGE_VERTEX_BIT, 16, 4}};
+    VkPushConstantRange& modes = both[0];
     auto layout = make<VkPipelineLayoutCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_LAYOUT_CREATE_INFO);
-    layout.pushConstantRangeCount = 1;
-    layout.pPushConstantRanges = &modes;
+    layout.pushConstantRangeCount = 2;
+    layout.pPushConstantRanges = both;
     check(vkCreatePipelineLayout(device_, &layout, nullptr, &layout_), "vkCreatePipelineLayout");
 
     auto sampler = make<VkSamplerCreateInfo>(VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO);
@@ -132,6 +137,7 @@ class Vulkan : public Driver, private VulkanDevice {
     pool.pPoolSizes = sizes;
     check(vkCreateDescriptorPool(device_, &pool, nullptr, &descriptors_), "vkCreateDescriptorPool");
     modes.stageFlags = VK_SHADER_STAGE_COMPUTE_BIT;
+    layout.pushConstantRangeCount = 1;
     layout.setLayoutCount = 1;
     layout.pSetLayouts = &set_layout_;
     check(vkCreatePipelineLayout(device_, &layout, nullptr, &samples_layout_), "vkCreatePipelineLayout");
@@ -155,6 +161,7 @@ class Vulkan : public Driver, private VulkanDevice {
                      SUREFILL_ADAPTER_DEPTH_GREATER | SUREFILL_ADAPTER_IDENTIFIERS | SUREFILL_ADAPTER_NOPERSPECTIVE |
                      SUREFILL_ADAPTER_FLAT;
     if (non_finite) info_.features |= SUREFILL_ADAPTER_NON_FINITE;
+    if (wide_lines_ && large_points_) info_.features |= static_cast<std::uint32_t>(SUREFILL_ADAPTER2_WIDTHS);
     info_.form = SUREFILL_ADAPTER_FORM_CLIP;
     info_.model.kind = SUREFILL_ADAPTER_MODEL_UNKNOWN;
     info_.model.grid_bits = std::min(limits.subPixelPrecisionBits, 12u);
@@ -179,6 +186,20 @@ class Vulkan : public Driver, private VulkanDevice {
       if (counts & samples) sample_counts_.push_back(samples);
     }
     if (!sample_counts_.empty()) info_.features |= SUREFILL_ADAPTER_SAMPLES;
+  }
+
+  // With several samples a pixel, or widths that the device has none of, nobody judges lines and points.
+  void check_primitives(const surefill_adapter_scene& scene, const Primitives& primitives) const {
+    const VkPhysicalDeviceLimits& limits = properties_.limits;
+    for (const PrimitiveOf& primitive : primitives) {
+      if (primitive.kind == SUREFILL_ADAPTER2_TRIANGLES) continue;
+      if (scene.samples > 1) throw NotJudged("lines and points with several samples a pixel");
+      const bool lines = primitive.kind == SUREFILL_ADAPTER2_LINES;
+      const float* range = lines ? limits.lineWidthRange : limits.pointSizeRange;
+      const float width = primitive.pixels();
+      const bool one = width == 1 || (lines ? wide_lines_ : large_points_);
+      if (!one || !(width >= range[0] && width <= range[1])) throw NotJudged("a width beyond the device's range");
+    }
   }
 
   // --- memory ---
@@ -247,8 +268,8 @@ class Vulkan : public Driver, private VulkanDevice {
   }
 
   VkPipeline pipeline_for(bool visible, std::uint32_t attributes, std::uint32_t stride, VkSampleCountFlagBits samples,
-                          bool clamp) {
-    VkPipeline& pipeline = pipelines_[{visible ? 1u : 0u, attributes, stride, samples, clamp ? 1u : 0u}];
+                          bool clamp, std::uint32_t primitive) {
+    VkPipeline& pipeline = pipelines_[{visible ? 1u : 0u, attributes, stride, samples, clamp ? 1u : 0u, primitive}];
     if (pipeline != VK_NULL_HANDLE) return pipeline;
     const VkShaderModule vertex = module(kSceneVertexSpirv[attributes]);
     const VkShaderModule fragment = module(!visible               ? kCountFragmentSpirv
@@ -269,7 +290,9 @@ class Vulkan : public Driver, private VulkanDevice {
     input.pVertexAttributeDescriptions = inputs.data();
     auto assembly =
         make<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
-    assembly.topology = VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST;
+    constexpr VkPrimitiveTopology kTopologies[] = {VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST, VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
+                                                   VK_PRIMITIVE_TOPOLOGY_POINT_LIST};
+    assembly.topology = kTopologies[primitive];
     auto viewport = make<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
     viewport.viewportCount = viewport.scissorCount = 1;
     auto raster =
@@ -298,7 +321,7 @@ class Vulkan : public Driver, private VulkanDevice {
     const VkDynamicState states[] = {VK_DYNAMIC_STATE_VIEWPORT,          VK_DYNAMIC_STATE_SCISSOR,
                                      VK_DYNAMIC_STATE_CULL_MODE,         VK_DYNAMIC_STATE_FRONT_FACE,
                                      VK_DYNAMIC_STATE_DEPTH_TEST_ENABLE, VK_DYNAMIC_STATE_DEPTH_WRITE_ENABLE,
-                                     VK_DYNAMIC_STATE_DEPTH_COMPARE_OP};
+                                     VK_DYNAMIC_STATE_DEPTH_COMPARE_OP,  VK_DYNAMIC_STATE_LINE_WIDTH};
     auto dynamic = make<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
     dynamic.dynamicStateCount = static_cast<std::uint32_t>(std::size(states));
     dynamic.pDynamicStates = states;
@@ -435,8 +458,13 @@ class Vulkan : public Driver, private VulkanDevice {
     for (const DrawRange& batch : stream.batches) {
       if (batch.count == 0) continue;
       const bool clamp = batch.draw->depth_mode != SUREFILL_ADAPTER_CLIP_DEPTH;
-      vkCmdBindPipeline(commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,
-                        pipeline_for(visible, attributes, stream.stride, framebuffer.samples, clamp));
+      vkCmdBindPipeline(
+          commands_, VK_PIPELINE_BIND_POINT_GRAPHICS,
+          pipeline_for(visible, attributes, stream.stride, framebuffer.samples, clamp, batch.primitive.kind));
+      const bool lines = batch.primitive.kind == SUREFILL_ADAPTER2_LINES;
+      const float line_width = lines ? batch.primitive.pixels() : 1, point_size = lines ? 1 : batch.primitive.pixels();
+      vkCmdSetLineWidth(commands_, line_width);
+      vkCmdPushConstants(commands_, layout_, VK_SHADER_STAGE_VERTEX_BIT, 16, 4, &point_size);
       set_state(scene, *batch.draw, visible);
       vkCmdPushConstants(commands_, layout_, VK_SHADER_STAGE_FRAGMENT_BIT, 0, 16, batch.interpolation.data());
       vkCmdDraw(commands_, batch.count, 1, batch.first, 0);
@@ -547,7 +575,7 @@ class Vulkan : public Driver, private VulkanDevice {
   VkDescriptorSetLayout set_layout_ = VK_NULL_HANDLE;
   VkDescriptorPool descriptors_ = VK_NULL_HANDLE;
   VkPipelineLayout layout_ = VK_NULL_HANDLE, samples_layout_ = VK_NULL_HANDLE;
-  std::map<std::array<std::uint32_t, 5>, VkPipeline> pipelines_;
+  std::map<std::array<std::uint32_t, 6>, VkPipeline> pipelines_;
   std::array<VkPipeline, 2> samples_pipelines_{};
   std::map<std::array<std::uint32_t, 4>, Framebuffer> framebuffers_;
   Buffer vertices_, words_;

@@ -130,6 +130,10 @@ void VulkanDevice::make_device() {
   use.pNext = &use13;
   use.features.depthClamp = VK_TRUE;
   use.features.independentBlend = has.features.independentBlend;
+  use.features.wideLines = has.features.wideLines;
+  use.features.largePoints = has.features.largePoints;
+  wide_lines_ = has.features.wideLines == VK_TRUE;
+  large_points_ = has.features.largePoints == VK_TRUE;
   const float priority = 1;
   auto queue = make<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
   queue.queueFamilyIndex = family;

@@ -76,6 +76,7 @@ class VulkanDevice {
   VkPhysicalDeviceProperties properties_{};
   VkDevice device_ = VK_NULL_HANDLE;
   VkCommandBuffer commands_ = VK_NULL_HANDLE;
+  bool wide_lines_ = false, large_points_ = false;
 
  private:
   void make_instance(bool validation);

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "certify/judge/plane.hpp"
+#include "certify/judge/shape.hpp"
 #include "certify/judge/turns.hpp"
 
 namespace surefill::judge {
@@ -13,6 +13,7 @@ namespace {
 
 constexpr int kGrantedRoundings = 64;  // R11
 constexpr double kClearSteps = 1.0 / 16;
+constexpr float kWidest = 256;  // R20
 
 bool finite(const Vertex& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
@@ -21,17 +22,6 @@ bool finite(const Vertex& v) {
 // Beside 0, numbers of 2^-32 to 2^32: no standard says what becomes of others.
 bool ordinary(float value) {
   return value == 0 || (std::abs(value) >= 0x1p-32f && std::abs(value) <= 0x1p32f);
-}
-
-struct Triangle {
-  std::array<std::uint32_t, 3> indices;
-  std::array<Vertex, 3> vertices;
-};
-
-Triangle triangle_of(const Draw& draw, std::size_t t) {
-  Triangle result{{draw.indices[3 * t], draw.indices[3 * t + 1], draw.indices[3 * t + 2]}, {}};
-  for (std::size_t i = 0; i < 3; ++i) result.vertices[i] = draw.vertices[result.indices[i]];
-  return result;
 }
 
 std::uint32_t identifier_of(const Draw& draw, std::size_t t) {
@@ -49,10 +39,10 @@ Cull in_default_facing(const Draw& draw) {
   return draw.cull == Cull::front ? Cull::back : Cull::front;
 }
 
-bool attributes_finite(const Draw& draw, const Triangle& triangle) {
+bool attributes_finite(const Draw& draw, const Shape& shape) {
   for (const AttributeArray& array : draw.attributes) {
     const std::size_t stride = array.stride == 0 ? array.components : array.stride;
-    for (const std::uint32_t v : triangle.indices) {
+    for (const std::uint32_t v : shape.indices()) {
       for (std::size_t c = 0; c < array.components; ++c) {
         if (!std::isfinite(array.values[v * stride + c])) return false;
       }
@@ -99,19 +89,18 @@ std::array<double, 2> distance_of(const Model& model, const Frame& frame) {
 }
 
 // What is granted to depth at the sample.
-Range depth_range(const Model& model, const Frame& frame, const Triangle& triangle, const Edges& edges, const Place& at,
-                  double* value) {
+Range depth_range(const Model& model, const Frame& frame, const Shape& shape, const Place& at, double* value) {
   std::array<double, 3> z{}, w{};
   double largest = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    z[i] = triangle.vertices[i].z;
-    w[i] = triangle.vertices[i].w;
+    z[i] = shape.vertices()[i].z;
+    w[i] = shape.vertices()[i].w;
     largest = std::max(largest, std::abs(z[i] / w[i]));
   }
   const std::array<double, 2> distance = distance_of(model, frame);
-  const Values values = values_around(edges, z, w, at.x, at.y, distance);
+  const Values values = shape.values(z, w, at.x, at.y, distance);
   if (value) *value = values.value;
-  largest = std::max(largest, terms_around(edges, z, w, at.x, at.y, distance));
+  largest = std::max(largest, shape.terms(z, w, at.x, at.y, distance));
   const double more = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126 + format_step(model);
   return {values.range.low - more, values.range.high + more};
 }
@@ -147,7 +136,8 @@ class Look {
       : terms_(terms), frame_(frame), image_(image), names_(names) {
     for (std::size_t d = 0; d < frame.draws.size(); ++d) {
       models_.push_back(model_of_draw(terms, frame, frame.draws[d]));
-      for (std::size_t t = 0; 3 * t < frame.draws[d].indices.size(); ++t) places_.push_back({d, t});
+      const std::size_t corners = corpus::corners_of(frame.draws[d].primitive);
+      for (std::size_t t = 0; corners * t < frame.draws[d].indices.size(); ++t) places_.push_back({d, t});
     }
   }
 
@@ -209,11 +199,10 @@ class Look {
     const auto [d, t] = places_[which];
     const Draw& draw = frame_.draws[d];
     const Model& model = models_[d];
-    const Triangle triangle = triangle_of(draw, t);
-    const Edges edges(triangle.vertices);
+    const Shape shape(draw, t);
     const Place at = place_of(model, frame_, s);
     double z = 0;
-    const Range granted = depth_range(model, frame_, triangle, edges, at, &z);
+    const Range granted = depth_range(model, frame_, shape, at, &z);
     // What meets the clear value may not be seen.
     const bool greater = frame_.depth_test == DepthTest::greater;
     if (std::isfinite(model.clear) && (greater ? granted.low <= 0 : granted.high >= model.clear)) return;
@@ -237,8 +226,8 @@ class Look {
                           const std::array<double, 3>& below, double largest, float actual) {
       if (!std::isfinite(largest)) return;
       const std::array<double, 2> distance = distance_of(model, frame_);
-      const Values values = values_around(edges, above, below, at.x, at.y, distance);
-      const double terms = std::max(largest, terms_around(edges, above, below, at.x, at.y, distance));
+      const Values values = shape.values(above, below, at.x, at.y, distance);
+      const double terms = std::max(largest, shape.terms(above, below, at.x, at.y, distance));
       const double more = kGrantedRoundings * 0x1p-24 * terms + 0x1p-126;
       note(name, deviation, s, values.value, {values.range.low - more, values.range.high + more}, actual);
     };
@@ -319,18 +308,18 @@ class Look {
   Corners attribute_of(std::uint32_t which, std::size_t k, std::size_t c) const {
     const auto [d, t] = places_[which];
     const Draw& draw = frame_.draws[d];
-    const Triangle triangle = triangle_of(draw, t);
+    const Shape shape(draw, t);
     const AttributeArray& array = draw.attributes[k];
     const std::size_t stride = array.stride == 0 ? array.components : array.stride;
     Corners corners{{}, {1, 1, 1}, {}, 0};
     std::array<double, 3>& u = corners.above;
-    for (std::size_t i = 0; i < 3; ++i) u[i] = array.values[triangle.indices[i] * stride + c];
+    for (std::size_t i = 0; i < 3; ++i) u[i] = array.values[shape.indices()[i] * stride + c];
     if (array.interpolation == Interpolation::flat) u = {u[0], u[0], u[0]};
     const auto [low, high] = std::minmax({u[0], u[1], u[2]});
     corners.vertices = {low, high};
     corners.largest = std::max(std::abs(low), std::abs(high));
     for (std::size_t i = 0; i < 3 && array.interpolation == Interpolation::noperspective; ++i) {
-      corners.below[i] = triangle.vertices[i].w;
+      corners.below[i] = shape.vertices()[i].w;
       u[i] *= corners.below[i];
     }
     return corners;
@@ -341,17 +330,13 @@ class Look {
   Range range_of(std::size_t s, std::uint32_t which, const Corners& corners) const {
     const auto [d, t] = places_[which];
     const Model& model = models_[d];
-    const Triangle triangle = triangle_of(frame_.draws[d], t);
-    const Edges edges(triangle.vertices);
+    const Shape shape(frame_.draws[d], t);
     const Place at = place_of(model, frame_, s);
     const std::array<double, 2> distance = distance_of(model, frame_);
-    Range range = values_around(edges, corners.above, corners.below, at.x, at.y, distance).range;
+    Range range = shape.values(corners.above, corners.below, at.x, at.y, distance).range;
     double more =
-        kGrantedRoundings * 0x1p-24 * terms_around(edges, corners.above, corners.below, at.x, at.y, distance) +
-        0x1p-126;
-    const bool front =
-        std::all_of(triangle.vertices.begin(), triangle.vertices.end(), [](const Vertex& v) { return v.w > 0; });
-    if (front) {
+        kGrantedRoundings * 0x1p-24 * shape.terms(corners.above, corners.below, at.x, at.y, distance) + 0x1p-126;
+    if (shape.in_front()) {
       range.low = std::min(range.low, corners.vertices.low);
       range.high = std::max(range.high, corners.vertices.high);
       more = std::max(more, kGrantedRoundings * 0x1p-24 * corners.largest);
@@ -368,12 +353,12 @@ class Look {
     for (const std::uint32_t which : seen) {
       const auto [d, t] = places_[which];
       const Draw& draw = frame_.draws[d];
-      const Triangle triangle = triangle_of(draw, t);
+      const Shape shape(draw, t);
       std::array<double, 3> z{};
       Corners corners{{}, {}, {}, 0};
       for (std::size_t i = 0; i < 3; ++i) {
-        corners.above[i] = triangle.vertices[i].z;
-        corners.below[i] = triangle.vertices[i].w;
+        corners.above[i] = shape.vertices()[i].z;
+        corners.below[i] = shape.vertices()[i].w;
         z[i] = corners.above[i] / corners.below[i];
       }
       const auto [low, high] = std::minmax({z[0], z[1], z[2]});
@@ -439,6 +424,10 @@ std::string why_open(const Terms& terms, const Frame& frame) {
   if (terms.model.x.lacks >= frame.width || terms.model.y.lacks >= frame.height) return "a viewport of no size";
   for (const Draw& draw : frame.draws) {
     if (draw.conservative != Conservative::none) return "conservative rasterization has no model";
+    if (draw.primitive != Primitive::triangles) {
+      if (frame.samples > 1) return "lines and points with several samples a pixel";
+      if (draw.width.value_or(1) > kWidest) return "widths above 256 pixels";
+    }
     for (const Vertex& v : draw.vertices) {
       if (!ordinary(v.x) || !ordinary(v.y) || !ordinary(v.z) || !ordinary(v.w))
         return "numbers beyond 2^32 or below 2^-32";
@@ -458,6 +447,9 @@ Model model_of_draw(const Terms& terms, const Frame& frame, const Draw& draw) {
   Model model = terms.model;
   if (terms.known && terms.draws_own_rule) {
     model.front = model.back = oracle::owners_of(draw.fill_rule);
+    if (draw.primitive != Primitive::triangles) {
+      model.lines.outline.ties = model.points.outline.ties = draw.fill_rule;
+    }
     model.vertices = oracle::AtVertices::as_edges;
   }
   if (terms.known && terms.draws_own_grid) {
@@ -499,16 +491,20 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
     const Cull cull = in_default_facing(draw);
     const bool nothing = model.culled != Cull::none && cull != Cull::none && cull != model.culled;
     if (cull != Cull::none) model.culled = cull;
-    for (std::size_t t = 0; 3 * t < draw.indices.size(); ++t, ++which) {
-      const Triangle triangle = triangle_of(draw, t);
-      if (nothing || !std::all_of(triangle.vertices.begin(), triangle.vertices.end(), finite) ||
-          !attributes_finite(draw, triangle)) {
+    const std::size_t corners = corpus::corners_of(draw.primitive);
+    for (std::size_t t = 0; corners * t < draw.indices.size(); ++t, ++which) {
+      const Shape shape(draw, t);
+      const std::array<Vertex, 3>& v = shape.vertices();
+      const bool triangle = draw.primitive == Primitive::triangles;
+      if ((triangle && nothing) || !std::all_of(v.begin(), v.end(), finite) || !attributes_finite(draw, shape)) {
         continue;
       }
       const std::vector<Cover> covers =
-          expected.cover(model, frame.width, frame.height, frame.samples, triangle.vertices);
+          triangle ? expected.cover(model, frame.width, frame.height, frame.samples, v)
+          : draw.primitive == Primitive::lines
+              ? expected.cover_line(model, frame.width, frame.height, {v[0], v[1]}, draw.width)
+              : expected.cover_point(model, frame.width, frame.height, v[0], draw.width.value_or(1));
       const bool clips = draw.depth_mode == DepthMode::clip || model.clipped;
-      const Edges edges(triangle.vertices);
       for (std::size_t s = 0; s < total; ++s) {
         Cover cover = covers[s];
         if (cover == Cover::no) continue;
@@ -518,7 +514,7 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
           continue;
         }
         if (clips) {
-          const Range depth = depth_range(model, frame, triangle, edges, at, nullptr);
+          const Range depth = depth_range(model, frame, shape, at, nullptr);
           if (draw.depth_mode == DepthMode::clip) cover = clipped(cover, depth, 0, 1);
           if (model.clipped && cover != Cover::no) {
             cover = clipped(cover, depth, (*model.clipped)[0], (*model.clipped)[1]);

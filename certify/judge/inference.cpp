@@ -400,6 +400,8 @@ Model least_known_model() {
   model.x.blur = model.y.blur = 1 + 3 * kMostBlur;  // of the place, of t, and r
   model.front.open = model.back.open = 0xFF;
   model.vertices = oracle::AtVertices::open;
+  model.lines.thin = model.lines.wide = oracle::LineShape::unknown;
+  model.points.known = false;
   return model;
 }
 

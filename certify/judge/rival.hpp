@@ -6,6 +6,7 @@
 #define SUREFILL_CERTIFY_JUDGE_RIVAL_HPP
 
 #include <array>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -37,16 +38,25 @@ class Rival {
   virtual corpus::Outputs outputs() const = 0;
   // The smallest distance, in pixels, between two positions that it can be given in a target of 64 pixels; 0: float32's.
   virtual double position_step() const = 0;
+  // What it draws beside triangles, and whether that may have a width.
+  struct Primitives {
+    bool lines = false, points = false, widths = false;
+  };
+  virtual Primitives primitives() const { return {}; }
   // The image of a scene without viewports, with those outputs of `wanted` that it has. Throws Failure, Declined.
   virtual corpus::Image draw(const corpus::Scene& scene, const corpus::Outputs& wanted) = 0;
 };
 
-// What a model says (section 11): oracle::cover and oracle::may_turn, or anything equal to them.
+// What a model says (section 11): oracle::cover, cover_line, cover_point and may_turn, or anything equal to them.
 class Expected {
  public:
   virtual ~Expected() = default;
   virtual std::vector<Cover> cover(const Model& model, int width, int height, int samples,
                                    const std::array<Vertex, 3>& triangle) const = 0;
+  virtual std::vector<Cover> cover_line(const Model& model, int width, int height, const std::array<Vertex, 2>& ends,
+                                        std::optional<float> line_width) const = 0;
+  virtual std::vector<Cover> cover_point(const Model& model, int width, int height, const Vertex& vertex,
+                                         float size) const = 0;
   virtual bool may_turn(const Model& model, int width, int height, const std::array<Vertex, 3>& triangle) const = 0;
 };
 

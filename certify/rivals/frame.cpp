@@ -8,10 +8,13 @@
 #include <string>
 
 #include "certify/rivals/draw_words.hpp"
+#include "corpus/scene.hpp"
 
 namespace surefill::adapters {
 
 namespace {
+
+using corpus::corners_of;
 
 // The enumerators of both headers have the same values, so a cast translates.
 static_assert(static_cast<int>(FillRule::northwards_west) == SUREFILL_ADAPTER_NORTHWARDS_WEST);
@@ -21,6 +24,8 @@ static_assert(static_cast<int>(DepthMode::clamp) == SUREFILL_ADAPTER_CLAMP_DEPTH
 static_assert(static_cast<int>(Conservative::inner) == SUREFILL_ADAPTER_CONSERVATIVE_INNER);
 static_assert(static_cast<int>(Cull::back) == SUREFILL_ADAPTER_CULL_BACK);
 static_assert(kNoTriangle == SUREFILL_ADAPTER_EMPTY);
+static_assert(static_cast<int>(Primitive::lines) == SUREFILL_ADAPTER2_LINES);
+static_assert(static_cast<int>(Primitive::points) == SUREFILL_ADAPTER2_POINTS);
 
 bool finite(const Vertex& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
@@ -54,6 +59,9 @@ std::uint32_t features_of(const Draw& draw, std::size_t wanted_attributes) {
   need(!std::is_sorted(draw.identifiers.begin(), draw.identifiers.end()), SUREFILL_ADAPTER_IDENTIFIERS);
   need(draw.conservative == Conservative::over, SUREFILL_ADAPTER_OVER);
   need(draw.conservative == Conservative::inner, SUREFILL_ADAPTER_INNER);
+  need(draw.primitive == Primitive::lines, static_cast<int>(kLines));
+  need(draw.primitive == Primitive::points, static_cast<int>(kPoints));
+  need(draw.primitive != Primitive::triangles && draw.width.has_value(), static_cast<int>(SUREFILL_ADAPTER2_WIDTHS));
   for (std::size_t k = 0; k < draw.attributes.size(); ++k) {
     const AttributeArray& array = draw.attributes[k];
     need(!finite(array, draw.vertices.size()), SUREFILL_ADAPTER_NON_FINITE);
@@ -83,7 +91,11 @@ constexpr const char* kFeatureNames[] = {"vertices with W <= 0",
                                          "fill rules of draws",
                                          "grids of draws",
                                          "NaN and infinities",
-                                         "fill rules closed and open"};
+                                         "fill rules closed and open",
+                                         "widths of lines and points",
+                                         "lines",
+                                         "points"};
+static_assert(std::size(kFeatureNames) == kFeatureBits);
 
 // What version 1 of the adapter has no word for, of a frame.
 const char* mode_without_word(const Target& target, std::span<const Draw> draws) {
@@ -162,7 +174,8 @@ std::vector<Draw> under_model(std::span<const Draw> draws, const surefill_adapte
     if (!(info.features & SUREFILL_ADAPTER_FILL_RULES)) draw.fill_rule = static_cast<FillRule>(model.fill_rule);
     if (info.features & SUREFILL_ADAPTER_GRIDS) continue;
     draw.grid.reset();
-    if (model.kind == SUREFILL_ADAPTER_MODEL_GRID && draw.conservative == Conservative::none) {
+    if (model.kind == SUREFILL_ADAPTER_MODEL_GRID && draw.conservative == Conservative::none &&
+        draw.primitive == Primitive::triangles) {
       draw.grid = Grid{static_cast<int>(model.grid_bits), static_cast<int>(model.grid_offset_x),
                        static_cast<int>(model.grid_offset_y), static_cast<GridRounding>(model.grid_rounding)};
     }
@@ -201,6 +214,9 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
   for (const Draw& draw : draws) {
     DrawState state = draw.state();
     if (info.features & SUREFILL_ADAPTER2_CLOSED_AND_OPEN) state.fill_rule = FillRule::top_left;
+    // Claimed, as was seen above; and a width of triangles has no part.
+    state.primitive = Primitive::triangles;
+    state.width.reset();
     if (const std::string_view field = field_without_word(state); !field.empty()) {
       return std::string(field) + " of a value that version 1 of the adapter has no word for";
     }
@@ -215,7 +231,9 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
   }
   for (const Draw& draw : draws) {
     if (exceeds(draw.vertices.size(), info.max_vertices)) return "draws of this number of vertices";
-    if (exceeds(draw.indices.size() / 3, info.max_triangles)) return "draws of this number of triangles";
+    if (exceeds(draw.indices.size() / corners_of(draw.primitive), info.max_triangles)) {
+      return "draws of this number of triangles";
+    }
   }
   if (info.form == SUREFILL_ADAPTER_FORM_CLIP) {
     const AdapterFrame frame(target, draws, clip_form(info));
@@ -237,7 +255,9 @@ AdapterFrame::AdapterFrame(const Target& target, std::span<const Draw> draws, co
     const Draw& from = draws[d];
     Storage& storage = storage_[d];
     surefill_adapter_draw& to = draws_[d];
-    const std::size_t vertices = from.vertices.size(), triangles = from.indices.size() / 3;
+    const std::size_t vertices = from.vertices.size(), triangles = from.indices.size() / corners_of(from.primitive);
+    primitives_.push_back({static_cast<std::uint32_t>(from.primitive),
+                           from.primitive == Primitive::triangles ? 0 : from.width.value_or(0)});
     const Viewport viewport = wide_viewport(target, from.vertices, form);
     std::vector<ClipVertex> clip(vertices);
     std::vector<Vertex> back(vertices);

@@ -12,6 +12,7 @@
 
 #include "certify/adapter.h"
 #include "certify/adapter2.h"
+#include "certify/rivals/wire.hpp"
 #include "surefill/surefill.hpp"
 
 namespace surefill::adapters {
@@ -20,7 +21,11 @@ namespace surefill::adapters {
 // model that is not known leaves the draws as they are.
 std::vector<Draw> under_model(std::span<const Draw> draws, const surefill_adapter_info& info);
 
-// The features that a frame needs, as bits of the adapter; and what they are called.
+// What is no feature of a header, and claimed by the primitives of version 2: bits after the features.
+inline constexpr std::uint32_t kLines = 1u << 21, kPoints = 1u << 22;
+inline constexpr int kFeatureBits = 23;
+
+// The features that a frame needs, as bits of the adapter, and kLines and kPoints; and what they are called.
 std::uint32_t needed_features(const Target& target, std::span<const Draw> draws);
 const char* feature_name(int bit);
 
@@ -46,6 +51,7 @@ class AdapterFrame {
   surefill_adapter_scene& scene() { return scene_; }
   const surefill_adapter_scene& scene() const { return scene_; }
   const surefill_adapter_image& image() const { return image_; }
+  const Primitives& primitives() const { return primitives_; }
 
  private:
   struct Storage {
@@ -56,6 +62,7 @@ class AdapterFrame {
   };
   std::vector<Storage> storage_;
   std::vector<surefill_adapter_draw> draws_;
+  Primitives primitives_;
   std::vector<float*> attribute_images_;
   surefill_adapter_scene scene_{};
   surefill_adapter_image image_{};

@@ -242,7 +242,7 @@ class Host {
       for (float*& attribute : attributes) attribute = floats_of();
     }
     body.make_read_only();
-    const SceneOfVersion2 second(decoded.scene);
+    const SceneOfVersion2 second(decoded.scene, decoded.primitives);
     const surefill_adapter2_image image2 = image_of_version_2(image);
     current_scene = &body;
     current_outputs = &buffers;

@@ -7,7 +7,9 @@
 #include <array>
 #include <cmath>
 
+#include "certify/judge/lines.hpp"
 #include "certify/judge/words.hpp"
+#include "certify/rivals/frame.hpp"
 #include "corpus/names.hpp"
 #include "corpus/scene.hpp"
 
@@ -24,6 +26,15 @@ class OracleExpected : public judge::Expected {
   std::vector<oracle::Cover> cover(const judge::Model& model, int width, int height, int samples,
                                    const std::array<Vertex, 3>& triangle) const override {
     return oracle::cover(model, width, height, samples, triangle);
+  }
+  std::vector<oracle::Cover> cover_line(const judge::Model& model, int width, int height,
+                                        const std::array<Vertex, 2>& ends,
+                                        std::optional<float> line_width) const override {
+    return oracle::cover_line(model, width, height, ends, line_width);
+  }
+  std::vector<oracle::Cover> cover_point(const judge::Model& model, int width, int height, const Vertex& vertex,
+                                         float size) const override {
+    return oracle::cover_point(model, width, height, vertex, size);
   }
   bool may_turn(const judge::Model& model, int width, int height,
                 const std::array<Vertex, 3>& triangle) const override {
@@ -87,6 +98,19 @@ void infer_depth_range(Rival& rival, Inference& result) {
   }
 }
 
+judge::Standard standard_of(std::uint32_t profile) {
+  switch (profile) {
+    case SUREFILL_ADAPTER_PROFILE_D3D11:
+      return judge::Standard::d3d11;
+    case SUREFILL_ADAPTER_PROFILE_VULKAN:
+      return judge::Standard::vulkan;
+    case SUREFILL_ADAPTER_PROFILE_OPENGL:
+      return judge::Standard::opengl;
+    default:
+      return judge::Standard::none;
+  }
+}
+
 }  // namespace
 
 corpus::Outputs JudgedRival::outputs() const {
@@ -98,6 +122,12 @@ corpus::Outputs JudgedRival::outputs() const {
 // Clip space is pixel space times a power of two and moved: positions below 64 in steps of 2^-18 are float32 there.
 double JudgedRival::position_step() const {
   return rival_.info().form == SUREFILL_ADAPTER_FORM_CLIP ? 0x1p-18 : 0;
+}
+
+judge::Rival::Primitives JudgedRival::primitives() const {
+  const std::uint32_t claimed = rival_.primitives();
+  return {(claimed >> SUREFILL_ADAPTER2_LINES & 1u) != 0, (claimed >> SUREFILL_ADAPTER2_POINTS & 1u) != 0,
+          (rival_.info().features & SUREFILL_ADAPTER2_WIDTHS) != 0};
 }
 
 corpus::Image JudgedRival::draw(const corpus::Scene& scene, const corpus::Outputs& wanted) {
@@ -185,6 +215,7 @@ Inference infer_model(Rival& rival) {
       if (declared.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN) hint = model_of(declared);
       if (rival.stated()) hint = rival.stated();
       result.judged = judge::infer(judged, oracle_expected(), hint);
+      judge::infer_lines(judged, oracle_expected(), standard_of(declared.profile), rival.stated(), result.judged);
       result.problems.insert(result.problems.end(), result.judged.problems.begin(), result.judged.problems.end());
       result.judged.model.distance = model_of(declared).distance;
       const auto expressed = adapter_model(result.judged.model, result.model);
@@ -218,7 +249,10 @@ judge::Terms terms_of(const surefill_adapter_info& info, const std::optional<jud
     terms.model.distance = declared.distance;
     terms.known = true;
   }
-  if (stated && (!found.known || judge::differences(*stated, found.model).empty())) {
+  const judge::Rival::Primitives drawn{(info.features & kLines) != 0, (info.features & kPoints) != 0,
+                                       (info.features & SUREFILL_ADAPTER2_WIDTHS) != 0};
+  if (stated && (!found.known || (judge::differences(*stated, found.model).empty() &&
+                                  judge::line_differences(*stated, found.model, drawn).empty()))) {
     terms.model = *stated;
     terms.known = true;
   }

@@ -21,13 +21,14 @@ class JudgedRival : public judge::Rival {
   explicit JudgedRival(adapters::Rival& rival) : rival_(rival) {}
   corpus::Outputs outputs() const override;
   double position_step() const override;
+  Primitives primitives() const override;
   corpus::Image draw(const corpus::Scene& scene, const corpus::Outputs& wanted) override;
 
  private:
   adapters::Rival& rival_;
 };
 
-// oracle::cover and oracle::may_turn.
+// oracle::cover, cover_line, cover_point and may_turn.
 const judge::Expected& oracle_expected();
 
 // What probing said.

@@ -43,7 +43,7 @@ void check_info(const surefill_adapter_info& info, std::uint32_t version) {
   if ((info.outputs & (SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH)) == 0) {
     refuse("it has none of the outputs count, index and depth");
   }
-  if (info.features >> (version == SUREFILL_ADAPTER_VERSION ? 19 : 20) != 0) refuse("a feature that there is not");
+  if (info.features >> (version == SUREFILL_ADAPTER_VERSION ? 19 : 21) != 0) refuse("a feature that there is not");
   if (info.form > SUREFILL_ADAPTER_FORM_CLIP) refuse("a form that there is not");
   if (model.kind > SUREFILL_ADAPTER_MODEL_GRID) refuse("a model that there is not");
   if (model.grid_bits > 12 || model.grid_offset_x > 15 || model.grid_offset_y > 15 || model.grid_rounding > 2) {
@@ -158,6 +158,8 @@ Rival::Rival(RivalOptions options) : options_(std::move(options)) {
     std::memcpy(&info_, words.data(), sizeof info_);
   }
   check_info(info_, version_);
+  if (primitives_ >> SUREFILL_ADAPTER2_LINES & 1u) info_.features |= kLines;
+  if (primitives_ >> SUREFILL_ADAPTER2_POINTS & 1u) info_.features |= kPoints;
   if (info_.model.y == SUREFILL_ADAPTER_Y_UNKNOWN) info_.model.y = SUREFILL_ADAPTER_Y_DOWN;
   if (info_.model.depth_range == SUREFILL_ADAPTER_DEPTH_RANGE_UNKNOWN) {
     info_.model.depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE;
@@ -261,8 +263,8 @@ void Rival::draw_once(Target target, std::span<const Draw> draws) {
   for (const OutputBuffer& output : outputs) due += output.size;
 
   std::unique_ptr<Process> process = take();
-  const Answer answer =
-      process->ask(kDraw, scene_words(frame.scene(), frame.image(), version_), due, options_.time_limit);
+  const Answer answer = process->ask(kDraw, scene_words(frame.scene(), frame.image(), version_, frame.primitives()),
+                                     due, options_.time_limit);
   if (answer.timed_out) ++timeouts_;
   if (!answer.failure.empty()) fail(answer.failure, true);
   {
@@ -301,9 +303,10 @@ void Rival::add_up_counts(const Target& target, std::span<const Draw> draws) {
   alone.depth = depth;
   const float empty = (target.depth_test == DepthTest::greater ? -1.0f : 1.0f) * std::numeric_limits<float>::infinity();
   for (const Draw& draw : draws) {
-    for (std::size_t t = 0; 3 * t < draw.indices.size(); ++t) {
+    const std::size_t corners = corpus::corners_of(draw.primitive);
+    for (std::size_t t = 0; corners * t < draw.indices.size(); ++t) {
       Draw one = draw;
-      one.indices = draw.indices.subspan(3 * t, 3);
+      one.indices = draw.indices.subspan(corners * t, corners);
       one.identifiers = {};
       one.first_index = 0;
       draw_once(alone, {&one, 1});
@@ -323,7 +326,7 @@ void Rival::draw(const Target& target, std::span<const Draw> draws) {
   const bool conservative =
       std::any_of(under.begin(), under.end(), [](const Draw& draw) { return draw.conservative != Conservative::none; });
   std::size_t triangles = 0;
-  for (const Draw& draw : under) triangles += draw.indices.size() / 3;
+  for (const Draw& draw : under) triangles += draw.indices.size() / corpus::corners_of(draw.primitive);
   if (asked.count.empty() && !target.count.empty() && triangles > kMostAlone) {
     throw RivalSkips("so many triangles without a count");
   }

@@ -52,7 +52,8 @@ class Rival {
   Rival(const Rival&) = delete;
   Rival& operator=(const Rival&) = delete;
 
-  // In the words of version 1, whichever version it speaks; features beyond those of version 1 have their bits.
+  // In the words of version 1, whichever version it speaks; features beyond those of version 1 have their bits, and so have
+  // lines and points (frame.hpp).
   const surefill_adapter_info& info() const { return info_; }
   std::uint32_t version() const { return version_; }
   // The primitives beside triangles that it claims, as bits: version 2.

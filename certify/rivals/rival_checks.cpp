@@ -10,7 +10,9 @@
 #include <string_view>
 #include <utility>
 
+#include "certify/judge/lines.hpp"
 #include "certify/judge/words.hpp"
+#include "certify/rivals/line_checks.hpp"
 #include "certify/rivals/tilings_check.hpp"
 #include "properties/generators/generators.hpp"
 #include "properties/machinery/properties.hpp"
@@ -287,6 +289,12 @@ class List {
       } else if (subject.declared) {
         const judge::Model declared = subject.rival->stated().value_or(adapters::model_of(subject.rival->info().model));
         std::vector<std::string> sentences = judge::differences(declared, found.judged.model);
+        if (subject.rival->stated()) {
+          for (const std::string& sentence :
+               judge::line_differences(declared, found.judged.model, primitives_of(*subject.rival))) {
+            sentences.push_back(sentence);
+          }
+        }
         if (found.model.y != subject.rival->info().model.y) {
           sentences.push_back(found.model.y == SUREFILL_ADAPTER_Y_UP ? "the first row is the bottom one"
                                                                      : "the first row is the top one");
@@ -325,9 +333,6 @@ class List {
     };
     check.run = [scenes, equal, &subject](std::uint64_t number) {
       const auto& [name, scene] = (*scenes)[number];
-      for (const corpus::SceneDraw& draw : scene.draws) {
-        if (draw.primitive != Primitive::triangles) return not_applicable();
-      }
       CaseResult result = equal(scene, subject);
       if (result.differences > 0) result.finding = name + ": " + result.finding;
       return result;
@@ -351,6 +356,34 @@ class List {
         return equal(scene_of(number), subject);
       };
       world.still_fails = still;
+    }
+  }
+
+  void add_lines() {
+    const judge::Rival::Primitives has = primitives_of(*subject_.rival);
+    if (!has.lines && !has.points) return;
+    add_scenes(kModel, "model-lines", "M7, I6, I7, R17-R23",
+               subject_.strict ? "every output of lines and points is the oracle's, bit for bit"
+                               : "lines and points cover what the model says, and have values within what is granted",
+               cases() * 8, line_scene_for, [](const Scene& scene, const RivalSubject& subject) {
+                 if (!subject.strict && !subject.terms.known) return not_applicable();
+                 return judge_scene(scene, subject);
+               });
+    add_scenes(kInvariants, "lines-alone", "V1",
+               "an image of lines and points is what they make of it drawn alone, and the same when drawn again",
+               cases() * 2, line_scene_for, alone_case);
+    checks_.back().exhibit = [&subject = subject_](const Scene& scene) { return alone_case(scene, subject).exhibit; };
+    if (!has.lines) return;
+    if (owes_strips(subject_)) {
+      add_scenes(kInvariants, "strips", "R22",
+                 "where lines that run one way meet, no pixel is drawn twice, and none is left out", cases() * 2,
+                 strip_scene, strip_case);
+    }
+    if (owes_line_rules(subject_, false) || owes_line_rules(subject_, true)) {
+      add_scenes(
+          kInvariants, "line-rules", "R22",
+          "a line is within a pixel of diamond exit's, has as many pixels or one more or fewer, and one at each step",
+          cases() * 4, lone_line_scene, line_rule_case);
     }
   }
 
@@ -414,6 +447,7 @@ std::vector<Check> list_rival_checks(const Settings& settings, const RivalSubjec
   List list(settings, subject);
   list.add_model();
   list.add_invariants();
+  list.add_lines();
   return list.take();
 }
 

@@ -70,21 +70,29 @@ struct FirstVersion {
 int draw(void* handle, const surefill_adapter2_scene* scene, const surefill_adapter2_image* image) {
   auto& instance = *static_cast<Instance*>(handle);
   bool sizes = scene->size == sizeof *scene && image->size == sizeof *image;
-  bool triangles = true;
   for (std::uint32_t d = 0; d < scene->draw_count; ++d) {
     sizes = sizes && scene->draws[d]->size == sizeof *scene->draws[d];
-    triangles = triangles && scene->draws[d]->primitive == SUREFILL_ADAPTER2_TRIANGLES;
     for (std::uint32_t k = 0; k < scene->attribute_count; ++k) {
       sizes = sizes && scene->draws[d]->attributes[k]->size == sizeof(surefill_adapter2_attribute);
     }
   }
-  if (!sizes || !triangles) {
-    instance.error = "a struct that does not begin with its size, or a primitive that was not claimed";
+  if (!sizes) {
+    instance.error = "a struct that does not begin with its size";
     return SUREFILL_ADAPTER_FAILED;
   }
   const FirstVersion first(*scene);
   const surefill_adapter_image image1{image->count, image->index, image->depth, image->barycentrics, image->attributes};
   adapters::PluginFrame frame(first.scene, image1);
+  for (std::uint32_t d = 0; d < scene->draw_count; ++d) {
+    const surefill_adapter2_draw& from = *scene->draws[d];
+    Draw& to = frame.draws()[d];
+    to.primitive = static_cast<Primitive>(from.primitive);
+    to.indices = {from.indices, (3 - std::size_t{from.primitive}) * from.primitive_count};
+    if (from.width > 0) to.width = from.width;
+    // What is wrong on purpose.
+    if (instance.fault == "lines-thin" && to.primitive == Primitive::lines) to.width.reset();
+    if (instance.fault == "points-wide" && to.primitive == Primitive::points) to.width = to.width.value_or(1) + 1;
+  }
   const Status status = render(frame.target(), frame.draws());
   if (status == Status::ok) return SUREFILL_ADAPTER_OK;
   instance.error = status_text(status);
@@ -113,8 +121,8 @@ int open_adapter(const char* arguments, surefill_adapter2_info* info, void** han
   std::snprintf(info->version, sizeof info->version, "%s", SUREFILL_VERSION);
   info->outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH |
                   SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;
-  info->features = adapters::kAllFeatures | SUREFILL_ADAPTER2_CLOSED_AND_OPEN;
-  info->primitives = 1 << SUREFILL_ADAPTER2_TRIANGLES | 1 << SUREFILL_ADAPTER2_LINES;
+  info->features = adapters::kAllFeatures | SUREFILL_ADAPTER2_CLOSED_AND_OPEN | SUREFILL_ADAPTER2_WIDTHS;
+  info->primitives = 1 << SUREFILL_ADAPTER2_TRIANGLES | 1 << SUREFILL_ADAPTER2_LINES | 1 << SUREFILL_ADAPTER2_POINTS;
   info->max_width = 1 << 14;
   // Cut before the limits: they are not said, whatever lies there.
   if (fault == "short-info") info->size = offsetof(surefill_adapter2_info, max_width);

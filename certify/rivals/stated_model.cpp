@@ -17,6 +17,9 @@ static_assert(oracle::bit(oracle::Side::top_left) == SUREFILL_ADAPTER2_TOP_LEFT)
 static_assert(static_cast<int>(oracle::AtVertices::open) == SUREFILL_ADAPTER2_VERTICES_OPEN);
 static_assert(static_cast<int>(oracle::Turned::nothing) == SUREFILL_ADAPTER2_TURNED_NOTHING);
 static_assert(static_cast<int>(oracle::DepthFormat::unorm16) == SUREFILL_ADAPTER2_DEPTH_UNORM16);
+static_assert(static_cast<int>(oracle::LineShape::unknown) == SUREFILL_ADAPTER2_LINE_UNKNOWN);
+static_assert(static_cast<int>(oracle::LeftOut::both) == SUREFILL_ADAPTER2_LEFT_OUT_BOTH);
+static_assert(static_cast<int>(FillRule::northwards_west) < SUREFILL_ADAPTER2_TIES_OPEN);
 
 constexpr std::uint32_t kAllSides = 0xFF;
 constexpr double kMostPixels = 16;  // that samples or viewports may be off: more is a mistake of units
@@ -46,6 +49,27 @@ surefill_adapter2_axis axis_of(const oracle::AxisModel& axis) {
           axis.grid_offset, axis.bits,         static_cast<std::uint32_t>(axis.rounding)};
 }
 
+surefill_adapter2_outline outline_of(const oracle::Outline& from, double blur) {
+  const std::uint32_t ties = from.ties ? static_cast<std::uint32_t>(*from.ties) : SUREFILL_ADAPTER2_TIES_OPEN;
+  return {ties, 0, blur, from.border, from.least_width, from.most_width, from.width_within};
+}
+
+std::string take_outline(const surefill_adapter2_outline& from, oracle::Outline& to, double& blur) {
+  if (from.ties > SUREFILL_ADAPTER2_TIES_OPEN) return "ties that there are not";
+  for (const double length : {from.blur, from.border, from.width_within}) {
+    if (!(length >= 0 && length <= kMostPixels)) return "a blur or a border that is no length from 0 to 16 pixels";
+  }
+  if (!(from.least_width >= 0 && from.most_width >= from.least_width)) return "a range of widths that there is not";
+  to.ties.reset();
+  if (from.ties != SUREFILL_ADAPTER2_TIES_OPEN) to.ties = static_cast<FillRule>(from.ties);
+  to.border = from.border;
+  to.least_width = from.least_width;
+  to.most_width = from.most_width;
+  to.width_within = from.width_within;
+  blur = from.blur;
+  return "";
+}
+
 }  // namespace
 
 surefill_adapter2_model default_model() {
@@ -60,6 +84,10 @@ surefill_adapter2_model default_model() {
   model.clip_far = 1;
   model.clear = static_cast<double>(from.clear);
   model.distance = from.distance;
+  model.thin_lines = static_cast<std::uint32_t>(from.lines.thin);
+  model.wide_lines = static_cast<std::uint32_t>(from.lines.wide);
+  model.lines = outline_of(from.lines.outline, from.lines.blur);
+  model.points = outline_of(from.points.outline, from.points.blur);
   return model;
 }
 
@@ -69,7 +97,10 @@ std::string take_model(const surefill_adapter2_model& from, oracle::Model& to) {
   }
   if (from.vertices > SUREFILL_ADAPTER2_VERTICES_OPEN || from.turned > SUREFILL_ADAPTER2_TURNED_NOTHING ||
       from.culled > SUREFILL_ADAPTER_CULL_BACK || from.depth_format > SUREFILL_ADAPTER2_DEPTH_UNORM16 ||
-      from.clips > 1 || from.minus_one_to_one > 1 || from.later_wins > 1) {
+      from.clips > 1 || from.minus_one_to_one > 1 || from.later_wins > 1 ||
+      from.thin_lines > SUREFILL_ADAPTER2_LINE_UNKNOWN || from.wide_lines > SUREFILL_ADAPTER2_LINE_UNKNOWN ||
+      from.left_out > SUREFILL_ADAPTER2_LEFT_OUT_BOTH || from.whole_pixels > 1 || from.points_unknown > 1 ||
+      from.points_clipped_whole > 1) {
     return "a choice that there is not";
   }
   if (!(from.least_area >= 0) || !(from.least_w >= 0) || !(from.most_w >= from.least_w))
@@ -99,6 +130,18 @@ std::string take_model(const surefill_adapter2_model& from, oracle::Model& to) {
   to.later_wins = from.later_wins != 0;
   to.clear = static_cast<float>(from.clear);
   to.distance = from.distance;
+  to.lines.thin = static_cast<oracle::LineShape>(from.thin_lines);
+  to.lines.wide = static_cast<oracle::LineShape>(from.wide_lines);
+  to.lines.left_out = static_cast<oracle::LeftOut>(from.left_out);
+  to.lines.whole_pixels = from.whole_pixels != 0;
+  to.points.known = from.points_unknown == 0;
+  to.points.clipped_whole = from.points_clipped_whole != 0;
+  if (const std::string wrong = take_outline(from.lines, to.lines.outline, to.lines.blur); !wrong.empty()) {
+    return "lines: " + wrong;
+  }
+  if (const std::string wrong = take_outline(from.points, to.points.outline, to.points.blur); !wrong.empty()) {
+    return "points: " + wrong;
+  }
   return "";
 }
 

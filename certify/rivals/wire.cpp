@@ -54,6 +54,7 @@ class Reader {
 
 // The words of version 2's headers, which begin with their number.
 constexpr std::uint32_t kSceneHeaderWords = 11, kDrawHeaderWords = 28;
+constexpr std::uint32_t kPrimitiveHeaderWords = 29;  // of a draw of lines or points: its width comes after the others
 
 // Sizes as S5 and attributes as the adapter has them: then no number of samples or values overflows.
 bool sizes_in_range(const surefill_adapter_scene& scene) {
@@ -97,7 +98,7 @@ std::string take_struct(std::span<const std::uint32_t> words, void* to, std::siz
   return "";
 }
 
-SceneOfVersion2::SceneOfVersion2(const surefill_adapter_scene& scene)
+SceneOfVersion2::SceneOfVersion2(const surefill_adapter_scene& scene, const Primitives& primitives)
     : draws_(scene.draw_count), attributes_(scene.draw_count), attribute_pointers_(scene.draw_count) {
   for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
     const surefill_adapter_draw& from = scene.draws[d];
@@ -109,7 +110,10 @@ SceneOfVersion2::SceneOfVersion2(const surefill_adapter_scene& scene)
     }
     for (const surefill_adapter2_attribute& attribute : attributes_[d]) attribute_pointers_[d].push_back(&attribute);
     to.size = sizeof to;
-    to.primitive = SUREFILL_ADAPTER2_TRIANGLES;
+    if (!primitives.empty()) {
+      to.primitive = primitives[d].kind;
+      to.width = primitives[d].width;
+    }
     to.vertex_count = from.vertex_count;
     to.primitive_count = from.triangle_count;
     to.pixel = from.pixel;
@@ -149,7 +153,8 @@ surefill_adapter2_image image_of_version_2(const surefill_adapter_image& image) 
       sizeof(surefill_adapter2_image), 0, image.count, image.index, image.depth, image.barycentrics, image.attributes};
 }
 
-Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_image& image, std::uint32_t version) {
+Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_image& image, std::uint32_t version,
+                  const Primitives& primitives) {
   std::uint32_t outputs = 0;
   if (image.count) outputs |= SUREFILL_ADAPTER_COUNT;
   if (image.index) outputs |= SUREFILL_ADAPTER_INDEX;
@@ -169,15 +174,18 @@ Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_im
   if (scene.initial_depth) append(words, scene.initial_depth, total_samples(scene));
   for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
     const surefill_adapter_draw& draw = scene.draws[d];
-    if (second) words.insert(words.end(), {kDrawHeaderWords, SUREFILL_ADAPTER2_TRIANGLES});
+    const PrimitiveOf primitive = primitives.empty() ? PrimitiveOf{} : primitives[d];
+    const bool plain = primitive.kind == SUREFILL_ADAPTER2_TRIANGLES;
+    if (second) words.insert(words.end(), {plain ? kDrawHeaderWords : kPrimitiveHeaderWords, primitive.kind});
     words.insert(words.end(), {draw.vertex_count, draw.triangle_count, draw.clip_is_exact, bits(draw.viewport_x),
                                bits(draw.viewport_y), bits(draw.viewport_width), bits(draw.viewport_height),
                                bits(draw.viewport_near), bits(draw.viewport_far), draw.viewport_depth_range});
     for_each_state_word(draw, [&](const auto& word) { words.push_back(static_cast<std::uint32_t>(word)); });
+    if (second && !plain) words.push_back(bits(primitive.width));
     const std::size_t vertices = draw.vertex_count, triangles = draw.triangle_count;
     append(words, draw.pixel, 4 * vertices);
     append(words, draw.clip, 4 * vertices);
-    append(words, draw.indices, 3 * triangles);
+    append(words, draw.indices, primitive.corners() * triangles);
     append(words, draw.identifiers, triangles);
     for (std::uint32_t k = 0; k < scene.attribute_count; ++k) {
       words.push_back(draw.attributes[k].interpolation);
@@ -219,10 +227,13 @@ bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result, st
   if (has_initial_depth) scene.initial_depth = reader.numbers(total_samples(scene));
   result.draws.resize(scene.draw_count);
   result.attributes.resize(scene.draw_count);
+  result.primitives.resize(scene.draw_count);
   for (std::uint32_t d = 0; d < scene.draw_count && reader.ok(); ++d) {
+    PrimitiveOf& primitive = result.primitives[d];
     surefill_adapter_draw& draw = result.draws[d];
     const std::uint32_t draw_header = second ? reader.word() : 0;
-    if (second && (draw_header < kDrawHeaderWords || reader.word() != SUREFILL_ADAPTER2_TRIANGLES)) return false;
+    if (second) primitive.kind = reader.word();
+    if (second && (draw_header < kDrawHeaderWords || primitive.kind > SUREFILL_ADAPTER2_POINTS)) return false;
     draw.vertex_count = reader.word();
     draw.triangle_count = reader.word();
     draw.clip_is_exact = reader.word();
@@ -233,11 +244,13 @@ bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result, st
     draw.viewport_depth_range = reader.word();
     for_each_state_word(
         draw, [&](auto& word) { word = static_cast<std::remove_reference_t<decltype(word)>>(reader.word()); });
-    pass_over(draw_header, kDrawHeaderWords);
+    const bool has_width = draw_header >= kPrimitiveHeaderWords;
+    if (has_width) primitive.width = reader.number();
+    pass_over(draw_header, has_width ? kPrimitiveHeaderWords : kDrawHeaderWords);
     const std::uint64_t vertices = draw.vertex_count, triangles = draw.triangle_count;
     draw.pixel = reader.numbers(4 * vertices);
     draw.clip = reader.numbers(4 * vertices);
-    draw.indices = reader.take(3 * triangles);
+    draw.indices = reader.take(primitive.corners() * triangles);
     draw.identifiers = reader.take(triangles);
     for (std::uint32_t k = 0; k < scene.attribute_count && reader.ok(); ++k) {
       surefill_adapter_attribute attribute{};

@@ -41,9 +41,18 @@ Words struct_words(const Struct& from) {
 }
 std::string take_struct(std::span<const std::uint32_t> words, void* to, std::size_t size);
 
-// The body of kDraw. The image says which outputs are asked for.
+// What the draws of a scene of version 2 have beyond those of version 1, a draw each; empty: triangles.
+struct PrimitiveOf {
+  std::uint32_t kind = SUREFILL_ADAPTER2_TRIANGLES;
+  float width = 0;
+  std::size_t corners() const { return 3 - std::size_t{kind}; }
+};
+using Primitives = std::vector<PrimitiveOf>;
+
+// The body of kDraw. The image says which outputs are asked for. The draws' numbers of triangles are those of their
+// primitives.
 Words scene_words(const surefill_adapter_scene& scene, const surefill_adapter_image& image,
-                  std::uint32_t version = SUREFILL_ADAPTER_VERSION);
+                  std::uint32_t version = SUREFILL_ADAPTER_VERSION, const Primitives& primitives = {});
 
 // A decoded kDraw: `scene` points into the words, which stay where they are.
 struct DecodedScene {
@@ -52,16 +61,17 @@ struct DecodedScene {
   std::vector<surefill_adapter_draw> draws;
   std::vector<std::vector<surefill_adapter_attribute>> attributes;
   std::vector<std::uint32_t> components;  // of the attributes
+  Primitives primitives;                  // of each draw
 };
 
-// False if the words are no scene of triangles.
+// False if the words are no scene.
 bool decode_scene(std::span<const std::uint32_t> words, DecodedScene& result,
                   std::uint32_t version = SUREFILL_ADAPTER_VERSION);
 
 // A scene of version 1 in the structs of version 2, which point into it and into this object.
 class SceneOfVersion2 {
  public:
-  explicit SceneOfVersion2(const surefill_adapter_scene& scene);
+  explicit SceneOfVersion2(const surefill_adapter_scene& scene, const Primitives& primitives = {});
   SceneOfVersion2(const SceneOfVersion2&) = delete;
   SceneOfVersion2& operator=(const SceneOfVersion2&) = delete;
 

@@ -93,7 +93,7 @@ TEST_F(Adapter, StructsOfVersion2MayBeOfAnotherSize) {
   EXPECT_TRUE(says("it declares positions on a grid of 4 bits")) << out;
   const std::pair<const char*, const char*> faults[] = {
       {"longer-info", "it says more than this certify knows: its struct has 264 bytes, and here are 200"},
-      {"longer-model", "it says more than this certify knows: its struct has 296 bytes, and here are 232"},
+      {"longer-model", "it says more than this certify knows: its struct has 416 bytes, and here are 352"},
       {"tiny-info", "a struct of 3 bytes"},
       {"bad-output", "an output that there is not"},
       {"bad-feature", "a feature that there is not"},
@@ -111,9 +111,25 @@ TEST_F(Adapter, StructsOfVersion2MayBeOfAnotherSize) {
 // All of it, over a pipe too; a rule that version 1 has no word for is asked for.
 TEST_F(Adapter, TheEngineBehindVersion2IsExact) {
   EXPECT_EQ(certify("--plugin " SUREFILL_SECOND_PLUGIN), 0) << out;
-  EXPECT_TRUE(says("not challenged by any case that was judged: lines")) << out;
+  for (const char* check : {"ok    model-lines: ", "ok    lines-alone: ", "ok    strips: "}) {
+    EXPECT_TRUE(says(check)) << check << "\n" << out;
+  }
+  EXPECT_FALSE(says("not challenged")) << out;
   EXPECT_EQ(certify("--only 'alone,model*' --command '" SUREFILL_COMMAND " plugin-host " SUREFILL_SECOND_PLUGIN "'"), 0)
       << out;
+}
+
+// What it draws wrongly of lines and points is found.
+TEST_F(Adapter, LinesAndPointsAreJudged) {
+  const std::string plugin = "--only model,model-lines --plugin " SUREFILL_SECOND_PLUGIN " --plugin-arguments ";
+  EXPECT_EQ(certify(plugin + "no-model"), 0) << out;
+  EXPECT_TRUE(says("lines go by diamond exit") && says("points are squares around their vertex")) << out;
+  for (const char* fault : {"lines-thin", "points-wide"}) {
+    EXPECT_EQ(certify(plugin + fault), 1) << fault << "\n" << out;
+    EXPECT_TRUE(says("FAIL  model-lines: ")) << fault << "\n" << out;
+    EXPECT_LE(triangles_of("model-lines"), 1u);
+  }
+  EXPECT_TRUE(says("points are a pixel larger than their size") || says("no square")) << out;
 }
 
 // A model that version 1 has no words for is stated, and held to.

@@ -38,13 +38,16 @@ EMPTY = 0xFFFFFFFF
 _OUTPUTS = ("count", "index", "depth", "barycentrics", "attributes")
 _FEATURES = ("behind", "draws", "samples", "cull", "scissor", "depth_clip", "depth_clamp", "depth_greater",
              "depth_read_only", "initial_depth", "identifiers", "noperspective", "flat", "centroid", "over", "inner",
-             "fill_rules", "grids", "non_finite")
+             "fill_rules", "grids", "non_finite", "closed_and_open", "widths")
+_PRIMITIVES = ("triangles", "lines", "points")
 _FILL_RULES = ("top_left", "top_right", "bottom_left", "bottom_right", "southwards", "southwards_west", "northwards",
-               "northwards_west")
+               "northwards_west", "closed", "open")
+# The sides that own their samples under each of them, in the bits of certify/adapter2.h.
+_OWNED = (0x55, 0xA6, 0x59, 0xAA, 0x35, 0x36, 0xC9, 0xCA, 0xFF, 0)
 _ROUNDINGS = ("nearest_even", "nearest_up", "truncate")
 _PROFILES = ("exact", "d3d11", "vulkan", "opengl")
 _LIMITS = ("width", "height", "vertices", "triangles", "attributes", "components")
-_OPEN, _DRAW, _CLOSE = 1, 2, 3
+_OPEN, _DRAW, _CLOSE, _MODEL = 1, 2, 3, 4
 _OK, _UNSUPPORTED, _FAILED = 0, 1, 2
 
 
@@ -62,7 +65,7 @@ class SceneAttribute:
 
 @dataclasses.dataclass(frozen=True)
 class SceneDraw:
-    """Triangles in one state. What is not among the features that were claimed has its default."""
+    """Triangles, or lines or points, in one state. What is not among the features that were claimed has its default."""
 
     positions: NDArray[np.float32]
     """(V, 4), pixel-homogeneous: (X, Y, Z, W) is seen at (X/W, Y/W), x to the right, y down, with depth Z/W; pixel (i, j)
@@ -73,7 +76,7 @@ class SceneDraw:
     viewport: Tuple[float, float, float, float, float, float]
     """x, y, width, height, near, far; y is up in clip space."""
     triangles: NDArray[np.uint32]
-    """(T, 3), rows of positions."""
+    """(T, 3), rows of positions; (T, 2) of lines, (T, 1) of points."""
     identifiers: NDArray[np.uint32]
     """(T,), what the output "index" shows."""
     attributes: Sequence[SceneAttribute]
@@ -87,6 +90,10 @@ class SceneDraw:
     """x0, y0, x1, y1, half-open, in pixels from the top left; None: all."""
     grid: Optional[Tuple[int, str, int, int]]
     """Bits, rounding, offset of x and y in 2^-(bits + 4) pixels; None: none."""
+    primitive: str = "triangles"
+    """"triangles", or "lines" or "points" where they are claimed."""
+    width: Optional[float] = None
+    """Of lines, or the side of points, in pixels; None: thin lines, points of one pixel."""
 
 
 @dataclasses.dataclass(frozen=True)
@@ -127,25 +134,33 @@ class _Words:
         return [int(word) for word in self.take((number,))]
 
 
-def _scene(body: bytes) -> Scene:
+def _scene(body: bytes, second: bool = False) -> Scene:
+    """`second`: of version 2, whose headers begin with the number of their words."""
     words = _Words(body)
-    asked, width, height, samples, test, location, attributes, draws, has_depth = words.ints(9)
+    if second:
+        header, asked, _, width, height, samples, test, location, attributes, draws, has_depth = words.ints(11)
+        words.ints(header - 11)
+    else:
+        asked, width, height, samples, test, location, attributes, draws, has_depth = words.ints(9)
     components = tuple(words.ints(attributes))
     shape = (height, width) if samples == 1 else (height, width, samples)
     initial = words.take(shape, "<f4") if has_depth else None
     return Scene(width, height, samples, ("less", "greater")[test], ("centre", "centroid")[location],
                  tuple(name for bit, name in enumerate(_OUTPUTS) if asked >> bit & 1),
-                 [_draw(words, components) for _ in range(draws)], initial, components)
+                 [_draw(words, components, second) for _ in range(draws)], initial, components)
 
 
-def _draw(words: _Words, components: Tuple[int, ...]) -> SceneDraw:
+def _draw(words: _Words, components: Tuple[int, ...], second: bool) -> SceneDraw:
+    header, primitive = words.ints(2) if second else (28, 0)
     vertices, triangles, exact = words.ints(3)
     x, y, width, height, near, far = (float(v) for v in words.take((6,), "<f4"))
     _, fill_rule, front_face, cull, depth_mode, depth_write, conservative, has_scissor = words.ints(8)
     x0, y0, x1, y1 = (int(v) for v in words.take((4,), "<i4"))
     has_grid, bits, rounding, offset_x, offset_y = words.ints(5)
+    pixels = float(words.take((1,), "<f4")[0]) if header > 28 else 0.0
+    words.ints(max(header - 29, 0))
     positions, clip = words.take((vertices, 4), "<f4"), words.take((vertices, 4), "<f4")
-    corners, identifiers = words.take((triangles, 3)), words.take((triangles,))
+    corners, identifiers = words.take((triangles, 3 - primitive)), words.take((triangles,))
     attributes = []
     for number in components:
         interpolation = words.ints(1)[0]
@@ -155,7 +170,8 @@ def _draw(words: _Words, components: Tuple[int, ...]) -> SceneDraw:
                      _FILL_RULES[fill_rule], ("clockwise", "counter_clockwise")[front_face],
                      ("none", "front", "back")[cull], ("none", "clip", "clamp")[depth_mode], bool(depth_write),
                      ("none", "over", "inner")[conservative], (x0, y0, x1, y1) if has_scissor else None,
-                     (bits, _ROUNDINGS[rounding], offset_x, offset_y) if has_grid else None)
+                     (bits, _ROUNDINGS[rounding], offset_x, offset_y) if has_grid else None, _PRIMITIVES[primitive],
+                     pixels if pixels > 0 else None)
 
 
 def _number_of(what: str, value: str, choices: Sequence[str]) -> int:
@@ -204,6 +220,18 @@ def _answer(scene: Scene, result: object) -> bytes:
     return b"".join(parts)
 
 
+def _model(bits: int, rounding: str, offset: Tuple[int, int], rule: str, clip_depth: str) -> bytes:
+    """surefill_adapter2_model: positions exact or on a grid, and lines and points as M7 has them."""
+    owned, infinity = _OWNED[_number_of("fill_rule", rule, _FILL_RULES)], float("inf")
+    ties = min(_number_of("fill_rule", rule, _FILL_RULES), 8)
+    number = {"nearest_even": 0, "nearest_up": 1, "truncate": 4}[rounding]
+    axes = [struct.pack("<7diI", 0.5, 0, 0, 0, 0, 0, o * 2.0 ** -(bits + 4) if bits >= 0 else 0.0, bits, number) for o in offset]
+    outline = struct.pack("<2I5d", ties, 0, 0, 0, 0, infinity, 0)
+    return struct.pack("<8I", 352, owned, 0, owned, 0, 0, 0, 0) + b"".join(axes) + struct.pack(
+        "<7d4I4I", 0, 0, infinity, 0, 1, infinity, 0.0625, 0, 0, int(clip_depth == "minus_one_to_one"), 0, 0, 1, 0,
+        0) + outline + outline + struct.pack("<2I", 0, 0)
+
+
 def each_triangle(covers: Callable[[NDArray[np.float64], int, int], NDArray[Any]]) -> Callable[[Scene], NDArray[np.uint32]]:
     """A draw function for the output "count", of one that draws a single triangle into an image of its own.
 
@@ -225,7 +253,7 @@ def serve(draw: Callable[[Scene], Union[NDArray[Any], Mapping[str, object]]], *,
           outputs: Sequence[str] = ("count",), features: Sequence[str] = (), form: str = "pixel", model: str = "unknown",
           grid_bits: int = 0, grid_rounding: str = "nearest_even", grid_offset: Tuple[int, int] = (0, 0),
           fill_rule: str = "top_left", profile: str = "opengl", rows: str = "down", clip_depth: str = "zero_to_one",
-          limits: Mapping[str, int] = {}) -> None:
+          limits: Mapping[str, int] = {}, primitives: Sequence[str] = ()) -> None:
     """Answers certify's requests over stdin and stdout until there are no more.
 
     draw       is called with a Scene, and returns a dict of those images that scene.outputs names: "count", "index" (EMPTY where
@@ -241,6 +269,7 @@ def serve(draw: Callable[[Scene], Union[NDArray[Any], Mapping[str, object]]], *,
     rows       "down", or "up" if row 0 of its images is the bottom one.
     clip_depth  "zero_to_one" or "minus_one_to_one".
     limits     the most "width", "height", "vertices", "triangles", "attributes" and "components" that it takes.
+    primitives  beside triangles: "lines", "points"; with the feature "widths" they may have one. (It then speaks version 2.)
 
     What is printed meanwhile goes to stderr, and is quoted where the rasterizer fails."""
     for limit in limits:
@@ -253,6 +282,15 @@ def serve(draw: Callable[[Scene], Union[NDArray[Any], Mapping[str, object]]], *,
         _number_of("fill_rule", fill_rule, _FILL_RULES), _number_of("profile", profile, _PROFILES),
         _number_of("rows", rows, ("down", "up")),
         _number_of("clip_depth", clip_depth, ("zero_to_one", "minus_one_to_one")), *(limits.get(n, 0) for n in _LIMITS))
+    second = bool(primitives) or any(name in ("closed_and_open", "widths") for name in features)
+    if second:
+        info = struct.pack(
+            "<2I64s64s2Q12I", 200, _number_of("form", form, ("pixel", "clip")), _text("name", name),
+            _text("version", version), _bits("outputs", outputs, _OUTPUTS), _bits("features", features, _FEATURES),
+            1 | _bits("primitives", primitives, _PRIMITIVES), _number_of("profile", profile, _PROFILES),
+            _number_of("rows", rows, ("down", "up")),
+            _number_of("clip_depth", clip_depth, ("zero_to_one", "minus_one_to_one")),
+            grid_bits if model == "unknown" else 0, *(limits.get(n, 0) for n in _LIMITS), 0)
     requests = sys.stdin.buffer
     sys.stdout.flush()
     answers = os.fdopen(os.dup(1), "wb")
@@ -263,9 +301,16 @@ def serve(draw: Callable[[Scene], Union[NDArray[Any], Mapping[str, object]]], *,
             return
         body = requests.read(4 * length)
         status, answer = _OK, info
+        if kind == _OPEN and second and struct.unpack_from("<I", body)[0] == 1:
+            answer = struct.pack("<I", 2)  # asked for version 1: this is one of version 2
+        if kind == _MODEL:
+            if model == "unknown":
+                status, answer = _UNSUPPORTED, b"no model is stated"
+            else:
+                answer = _model(grid_bits if model == "grid" else -1, grid_rounding, grid_offset, fill_rule, clip_depth)
         if kind == _DRAW:
             try:
-                scene = _scene(body)
+                scene = _scene(body, second)
                 answer = _answer(scene, draw(scene))
             except Unsupported as reason:
                 status, answer = _UNSUPPORTED, str(reason).encode()

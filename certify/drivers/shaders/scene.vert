@@ -3,6 +3,7 @@
 // VULKAN come before this text.
 #ifdef VULKAN
 #define PLACE(n) layout(location = n)
+layout(push_constant) uniform Points { layout(offset = 16) float size; };
 #else
 #define PLACE(n)
 #endif
@@ -21,6 +22,9 @@ PLACE(10) flat out vec4 constant[ATTRIBUTES];
 
 void main() {
   gl_Position = position;
+#ifdef VULKAN
+  gl_PointSize = size;
+#endif
   triangle = identifier;
   weights = vec3(corner == 0u, corner == 1u, corner == 2u);
 #if ATTRIBUTES > 0

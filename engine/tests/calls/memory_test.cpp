@@ -291,6 +291,31 @@ TEST(Memory, Render) {
   }
 }
 
+// Lines and points, alone and after triangles.
+TEST(Memory, RenderLines) {
+  const AttributeArray array{kValues, 2, 0, Interpolation::perspective};
+  Draw draws[4];
+  for (Draw& draw : draws) draw.vertices = kVertices, draw.indices = kIndices, draw.attributes = {&array, 1};
+  draws[0].primitive = draws[1].primitive = Primitive::lines;
+  draws[1].width = 2.5f;
+  draws[2].primitive = Primitive::points;
+  draws[2].width = 9;
+  for (std::uint32_t d = 1; d < 4; ++d) draws[d].first_index = 10 * d;
+  Image image;
+  for (const How& how : kWays) {
+    const Options& options = how.options;
+    for (const std::size_t number_of : {std::size_t{1}, std::size_t{3}, std::size_t{4}}) {
+      const std::span<const Draw> drawn = std::span<const Draw>(draws).first(number_of);
+      const int refused = check({std::string("render lines, ") + how.name + ", " + std::to_string(number_of),
+                                 [&] { image.reset(); },
+                                 [&] { return number(render(image.target, drawn, &image.statistics, options)); },
+                                 [&] { return image.bytes(); },
+                                 {}});
+      EXPECT_GE(refused, 2) << how.name;
+    }
+  }
+}
+
 TEST(Memory, VisitCoverage) {
   const Draws draws;
   struct Seen {

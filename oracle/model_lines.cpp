@@ -4,6 +4,7 @@
 // which is linear in every coordinate: so its sign at the corners of the boxes of R17 says what holds for every choice.
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "oracle/coverage.hpp"
 #include "oracle/exact.hpp"
@@ -200,6 +201,7 @@ class Directed {
   }
 
   // `scale`: what values are multiplied by, 1 or more.
+  template <typename Of, typename Change>
   Truth positive(const View& view, const Of& of, const Change& change, double scale = 1) const {
     bool all = true, none = true;
     for (unsigned n = 0; n < (view.point ? 1u : 16u); ++n) {

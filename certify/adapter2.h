@@ -145,7 +145,7 @@ typedef struct surefill_adapter2_model {
   uint32_t clips;        /* 1: depth is always clipped to clip_near, clip_far (R10) */
   uint32_t depth_format; /* R11 */
   uint32_t minus_one_to_one;
-  uint32_t later_wins; /* of equal depths: LEQUAL, GEQUAL (R12) */
+  uint32_t later_wins;             /* of equal depths: LEQUAL, GEQUAL (R12) */
   uint32_t thin_lines, wide_lines; /* SUREFILL_ADAPTER2_LINE_DIAMOND and _PARALLELOGRAM, ... (R18) */
   uint32_t left_out;               /* SUREFILL_ADAPTER2_LEFT_OUT_LAST, ... (R19) */
   uint32_t whole_pixels;           /* of ends (R17) */

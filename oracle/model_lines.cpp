@@ -37,8 +37,10 @@ bool finite(const Vertex& v) {
 
 Interval whole_pixel(const Interval& q, double place) {
   Interval result;
-  const auto at = [&](unsigned which) { return Rational(floor_of(end_of(q, which)) + Rational(place)); };
-  result.low = at(0), result.high = at(1);
+  const Rational low = floor_of(end_of(q, 0));
+  Rational high = floor_of(end_of(q, 1));
+  if (sgn(end_of(q, 1)) < 0 && high != end_of(q, 1)) high += 1;  // by truncation
+  result.low = low + Rational(place), result.high = high + Rational(place);
   result.near_low = result.low.get_d(), result.near_high = result.high.get_d();
   result.point = result.low == result.high;
   return result;
@@ -309,7 +311,7 @@ class LineAnswers {
       return;
     }
     for (auto& end : ends_) {
-      if (!model.lines.whole_pixels) break;
+      if (!model.lines.whole_pixels || shape_ != LineShape::diamond) break;
       end[0] = whole_pixel(end[0], model.x.place);
       end[1] = whole_pixel(end[1], model.y.place);
     }

@@ -123,13 +123,20 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
   facts.open = found.open;
   facts.turns = judge::turns_text(found.turns);
   facts.problems = subject.inference.problems;
+  facts.problems.insert(facts.problems.end(), found.line_problems.begin(), found.line_problems.end());
 }
 
 // What the faults that were found are called.
 std::vector<std::string> names_of(const RivalSubject& subject, std::span<const CheckResult> results) {
   std::vector<corpus::Scene> scenes;
   for (const CheckResult& result : results) {
-    if (result.failed > 0 && !result.scene_text.empty()) scenes.push_back(corpus::read_scene(result.scene_text));
+    if (result.failed == 0 || result.scene_text.empty()) continue;
+    corpus::Scene scene = corpus::read_scene(result.scene_text);
+    // What is wrong with lines and points the model says; who is like it is known of triangles.
+    const bool triangles = std::all_of(scene.draws.begin(), scene.draws.end(), [](const corpus::SceneDraw& draw) {
+      return draw.primitive == Primitive::triangles;
+    });
+    if (triangles) scenes.push_back(std::move(scene));
   }
   const bool failed = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.failed > 0; });
   if (!failed || subject.rival->given_up()) return {};

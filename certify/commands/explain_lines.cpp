@@ -132,6 +132,13 @@ int draw_crossings(const Panel& panel, const Stroke& one) {
     const auto at = [&](double m) { return x_major ? panel.at(along, m) : panel.at(m, along); };
     const double least = x_major ? panel.y0 : panel.x0, most = x_major ? panel.y1 : panel.x1;
     if (!(beside + half >= least && beside - half <= most)) continue;
+    // Where S is: not beyond the ends that are in front of the eye.
+    const auto place = [x_major](const Vertex& q) { return static_cast<double>(x_major ? q.x : q.y) / q.w; };
+    const double toward = x_major ? eb : -ea;
+    const auto past = [&](const Vertex& q, bool last) {
+      return q.w > 0 && (toward > 0) == last ? along > place(q) + 0.5 : q.w > 0 && along < place(q) - 0.5;
+    };
+    if (past(a, false) || past(b, true)) continue;
     panel.svg.line(at(std::clamp(beside - half, least, most)), at(std::clamp(beside + half, least, most)),
                    "stroke=\"#e07b00\" stroke-width=\"1.4\"");
     panel.svg.circle(at(std::clamp(beside, least, most)), std::min(2.0, panel.scale / 5), "fill=\"#e07b00\"");

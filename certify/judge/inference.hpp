@@ -23,6 +23,7 @@ struct Inference {
   std::string shape;                  // what the table of turns says at a glance, if that is no sample's: a sentence
   std::vector<std::string> open;      // what could not be found out, and why: no findings
   std::vector<std::string> problems;  // what no model explains: findings, one sentence each
+  std::vector<std::string> line_problems;  // of lines and points, what no standard allows: the same
 };
 
 // All triangles have W > 0. `declared` is preferred among models that explain the probes alike. Throws Failure; what is

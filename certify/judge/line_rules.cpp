@@ -58,9 +58,9 @@ RuleVerdict judge_line(const Expected& expected, const Model& model, const LoneL
   RuleVerdict verdict;
   const std::optional<bool> major = x_major(line.ends[0], line.ends[1]);
   if (!major || line.line_width.value_or(1) > 64) return verdict;
-  // A width that is as near to two whole numbers says too little.
+  // What becomes of other widths than whole ones is not asked.
   const double wide = line.line_width.value_or(1), n = std::max(1.0, std::floor(wide + 0.5));
-  if (std::abs(wide + 0.5 - std::nearbyint(wide + 0.5)) < 1e-3 && wide > 0.5) return verdict;
+  if (wide != n) return verdict;
   const std::vector<Cover> near = expected.cover_line(with_shape(model, oracle::LineShape::tolerant), line.width,
                                                       line.height, line.ends, line.line_width);
   const std::vector<Cover> ideal = expected.cover_line(with_shape(model, oracle::LineShape::diamond), line.width,

@@ -220,7 +220,9 @@ std::optional<LineModel> fit_lines(const Expected& expected, const Model& model,
       }
     }
   }
-  for (const double length : lengths_of(model)) {
+  // Who is wrong in a known way is so by pixels: a few lengths tell.
+  const std::vector<double> few{0, 0x1p-8, kMostBlur};
+  for (const double length : mistake.sentence != nullptr ? few : lengths_of(model)) {
     std::optional<LineModel> best;
     std::uint64_t open = 0;
     for (LineModel lines : candidates) {
@@ -293,7 +295,7 @@ void infer_shape(Rival& rival, const Expected& expected, Standard standard, cons
   const std::vector<Drawn> drawn = draw_probes(rival, result.model, Primitive::lines, wide, wide ? kWide : kThin);
   LineModel& lines = result.model.lines;
   LineShape& shape = wide ? lines.wide : lines.thin;
-  const auto problem = [&](const std::string& sentence) { result.problems.push_back(sentence); };
+  const auto problem = [&](const std::string& sentence) { result.line_problems.push_back(sentence); };
   if (const std::optional<LineModel> found = fit_lines(expected, result.model, drawn, wide, declared)) {
     if (wide) {
       lines.wide = found->wide;
@@ -321,7 +323,7 @@ void infer_shape(Rival& rival, const Expected& expected, Standard standard, cons
   shape = LineShape::unknown;
   for (const Mistake& mistake : kLineMistakes) {
     if (!wide || !fit_lines(expected, result.model, drawn, wide, declared, mistake)) continue;
-    (standard == Standard::none ? result.open : result.problems).push_back(mistake.sentence);
+    (standard == Standard::none ? result.open : result.line_problems).push_back(mistake.sentence);
     return;
   }
   const std::string why = broken(expected, result.model, drawn);
@@ -371,7 +373,7 @@ void infer_points(Rival& rival, const Expected& expected, Standard standard, con
     }
   }
   points.known = false;
-  std::vector<std::string>& list = standard == Standard::none ? result.open : result.problems;
+  std::vector<std::string>& list = standard == Standard::none ? result.open : result.line_problems;
   for (const Mistake& mistake : kPointMistakes) {
     oracle::PointModel candidate;
     candidate.clipped_whole = true;

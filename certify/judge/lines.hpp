@@ -17,7 +17,7 @@ namespace surefill::judge {
 enum class Standard : std::uint8_t { none, d3d11, vulkan, opengl };
 
 // Fills in result.model.lines and .points, where the rival draws them and its positions are known. What a standard does not
-// allow goes into result.problems; what is not found out, into result.open. `declared` is preferred among models that
+// allow goes into result.line_problems; what is not found out, into result.open. `declared` is preferred among models that
 // explain the probes. Throws Failure.
 void infer_lines(Rival& rival, const Expected& expected, Standard standard, const std::optional<Model>& declared,
                  Inference& result);

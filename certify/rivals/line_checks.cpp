@@ -8,6 +8,7 @@
 
 #include "certify/judge/line_rules.hpp"
 #include "certify/judge/probes.hpp"
+#include "certify/rivals/frame.hpp"
 #include "properties/generators/generators.hpp"
 
 namespace surefill::certify {

@@ -362,6 +362,22 @@ class List {
   void add_lines() {
     const judge::Rival::Primitives has = primitives_of(*subject_.rival);
     if (!has.lines && !has.points) return;
+    Check& shapes = add(kModel, "line-shapes", "R17-R24",
+                        "lines and points are shapes that its standard allows, as far as probing finds", 1);
+    shapes.unit = "rasterizer";
+    shapes.exhaustive = true;
+    shapes.run = [&subject = subject_](std::uint64_t) {
+      const judge::Inference& found = subject.inference.judged;
+      if (!found.known) return not_applicable();
+      CaseResult result;
+      result.samples = 1;
+      for (const std::string& sentence : found.line_problems) {
+        result.finding += (result.finding.empty() ? "" : "; ") + sentence;
+      }
+      result.differences = found.line_problems.empty() ? 0 : 1;
+      return result;
+    };
+    shapes.still_fails = nullptr;
     add_scenes(kModel, "model-lines", "M7, I6, I7, R17-R23",
                subject_.strict ? "every output of lines and points is the oracle's, bit for bit"
                                : "lines and points cover what the model says, and have values within what is granted",
@@ -407,6 +423,16 @@ bool draws_one_triangle(Rival& rival) {
   }
 }
 
+// Where a standard allows lines other than those that were found, nobody has to draw these throughout (R24).
+void hold_to_standard(std::uint32_t profile, oracle::LineModel& lines) {
+  for (oracle::LineShape* shape : {&lines.thin, &lines.wide}) {
+    const bool diamond = *shape == oracle::LineShape::diamond, known = *shape != oracle::LineShape::unknown;
+    if (profile == SUREFILL_ADAPTER_PROFILE_OPENGL ? known : profile == SUREFILL_ADAPTER_PROFILE_VULKAN && diamond) {
+      *shape = oracle::LineShape::tolerant;
+    }
+  }
+}
+
 }  // namespace
 
 RivalSubject meet_rival(Rival& rival) {
@@ -435,6 +461,7 @@ RivalSubject meet_rival(Rival& rival) {
   }
   if (!subject.declared) rival.set_model(subject.inference.model);
   subject.terms = adapters::terms_of(rival.info(), rival.stated(), subject.inference.judged);
+  if (!rival.stated()) hold_to_standard(rival.info().model.profile, subject.terms.model.lines);
   subject.strict = exact_profile(rival) && rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
   return subject;
 }

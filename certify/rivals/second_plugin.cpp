@@ -90,7 +90,7 @@ int draw(void* handle, const surefill_adapter2_scene* scene, const surefill_adap
     to.indices = {from.indices, (3 - std::size_t{from.primitive}) * from.primitive_count};
     if (from.width > 0) to.width = from.width;
     // What is wrong on purpose.
-    if (instance.fault == "lines-thin" && to.primitive == Primitive::lines) to.width.reset();
+    if (instance.fault == "lines-thin" && to.primitive == Primitive::lines && to.width) to.width = 1.0f;
     if (instance.fault == "points-wide" && to.primitive == Primitive::points) to.width = to.width.value_or(1) + 1;
   }
   const Status status = render(frame.target(), frame.draws());

@@ -50,7 +50,7 @@ surefill_adapter2_axis axis_of(const oracle::AxisModel& axis) {
 }
 
 surefill_adapter2_outline outline_of(const oracle::Outline& from, double blur) {
-  const std::uint32_t ties = from.ties ? static_cast<std::uint32_t>(*from.ties) : SUREFILL_ADAPTER2_TIES_OPEN;
+  const auto ties = static_cast<std::uint32_t>(from.ties ? static_cast<int>(*from.ties) : SUREFILL_ADAPTER2_TIES_OPEN);
   return {ties, 0, blur, from.border, from.least_width, from.most_width, from.width_within};
 }
 

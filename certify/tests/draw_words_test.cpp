@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstring>
 #include <vector>
 
@@ -87,10 +88,45 @@ TEST(DrawWords, HeadersOfVersion2MayGrow) {
     DecodedScene none;
     EXPECT_FALSE(decode_scene(shorter, none, SUREFILL_ADAPTER2_VERSION)) << header;
   }
-  Words lines = words;
-  lines[12] = SUREFILL_ADAPTER2_LINES;
+  Words others = words;
+  others[12] = SUREFILL_ADAPTER2_POINTS + 1;
   DecodedScene none;
-  EXPECT_FALSE(decode_scene(lines, none, SUREFILL_ADAPTER2_VERSION));
+  EXPECT_FALSE(decode_scene(others, none, SUREFILL_ADAPTER2_VERSION));
+}
+
+// Lines and points have two indices and one, and a width behind the words of triangles.
+TEST(DrawWords, LinesAndPointsComeBack) {
+  const std::array<std::uint32_t, 4> indices{0, 1, 1, 0}, identifiers{7, 8, 9, 10};
+  const std::array<float, 8> vertices{1, 2, 3, 4, 5, 6, 7, 8};
+  for (const std::uint32_t kind : {SUREFILL_ADAPTER2_LINES, SUREFILL_ADAPTER2_POINTS}) {
+    surefill_adapter_draw draw{};
+    draw.vertex_count = 2;
+    draw.triangle_count = kind == SUREFILL_ADAPTER2_LINES ? 2 : 4;
+    draw.pixel = draw.clip = vertices.data();
+    draw.indices = indices.data();
+    draw.identifiers = identifiers.data();
+    surefill_adapter_scene scene{};
+    scene.width = scene.height = scene.samples = scene.draw_count = 1;
+    scene.draws = &draw;
+    const Words words = scene_words(scene, {}, SUREFILL_ADAPTER2_VERSION, {{kind, 2.5f}});
+    DecodedScene decoded;
+    ASSERT_TRUE(decode_scene(words, decoded, SUREFILL_ADAPTER2_VERSION));
+    ASSERT_EQ(decoded.primitives.size(), 1u);
+    EXPECT_EQ(decoded.primitives[0].kind, kind);
+    EXPECT_EQ(decoded.primitives[0].width, 2.5f);
+    EXPECT_EQ(decoded.draws[0].indices[3], 0u);
+    EXPECT_EQ(decoded.draws[0].identifiers[draw.triangle_count - 1], identifiers[draw.triangle_count - 1]);
+    const SceneOfVersion2 second(decoded.scene, decoded.primitives);
+    EXPECT_EQ(second.scene().draws[0]->primitive, kind);
+    EXPECT_EQ(second.scene().draws[0]->width, 2.5f);
+    // Without the word of a width there is none.
+    Words shorter = words;
+    shorter[11] = 28;
+    shorter.erase(shorter.begin() + 11 + 28);
+    DecodedScene thin;
+    ASSERT_TRUE(decode_scene(shorter, thin, SUREFILL_ADAPTER2_VERSION));
+    EXPECT_EQ(thin.primitives[0].width, 0);
+  }
 }
 
 TEST(DrawWords, WhatHasNoWordIsNamed) {

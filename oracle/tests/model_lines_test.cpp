@@ -162,10 +162,10 @@ TEST(ModelLines, ShapesByHand) {
   EXPECT_EQ(line(flat(0.5f, 1.25f, 3.5f, 1.25f), 1.5f), "ooo../###../...../");  // one or two
   // M7's, and a rectangle, whose ends slant.
   model = {};
-  const Ends slanted = flat(1.0f, 0.9f, 4.0f, 2.1f);
-  EXPECT_EQ(line(slanted, 1.25f), ".##../..##./...#./");
+  const Ends slanted = flat(1.3f, 0.5f, 3.7f, 2.9f);
+  EXPECT_EQ(line(slanted, 1.25f), ".#.../..#../...#./");
   model.lines.wide = LineShape::rectangle;
-  EXPECT_EQ(line(slanted, 1.25f), ".##../.###./...##/");
+  EXPECT_EQ(line(slanted, 1.25f), ".#.../.##../..##./");
   // Widths.
   model = {};
   model.lines.outline.most_width = 1;
@@ -201,9 +201,9 @@ TEST(ModelLines, PointsByHand) {
   model.points.outline.ties.reset();
   EXPECT_EQ(point(2, 1.5f, 1), "...../.oo../...../");
   model.points.outline.border = 0.25;
-  EXPECT_EQ(point(2.5f, 1.5f, 2.75f), ".ooo./.o#o./.ooo./");
+  EXPECT_EQ(point(2.5f, 1.5f, 2), ".ooo./.o#o./.ooo./");
   model = {};
-  EXPECT_EQ(point(-0.25f, 1.5f, 2), "...../#..../...../");
+  EXPECT_EQ(point(-0.25f, 1.5f, 2), "#..../#..../...../");
   model.points.clipped_whole = true;
   EXPECT_NE(point(-0.25f, 1.5f, 2).find('o'), std::string::npos);
   model.points.known = false;

@@ -155,6 +155,7 @@ Status SafeOcclusionBuffer::draw(std::span<const Occluder> occluders, const Opti
   CallersCode callers{environment, options.executor, {}};
   if (!state_->draw(occluders, callers.with_executor(options))) {
     state_->clear();
+    state_->patches = {}, state_->keys = {}, state_->columns = {};
     return Status::out_of_memory;
   }
   state_->build();

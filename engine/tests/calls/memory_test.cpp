@@ -466,7 +466,7 @@ TEST(Memory, SafeOcclusionBuffer) {
                                 return bytes;
                               },
                               {},
-                              6});
+                              8});
   EXPECT_GE(prepared, 2 * 9);
   for (const How& how : kWays) {
     SafeOcclusionBuffer clear, buffer;

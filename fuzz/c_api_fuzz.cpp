@@ -178,17 +178,17 @@ class Call : CallMemory {
     bool unused = false;  // is something there that safe draws have no use for?
     for (std::size_t i = 0; i < draws.size(); ++i) {
       surefill_draw& draw = draws[i];
-      draw.struct_size = sizeof draw;
+      draw.struct_size = sizeof draw, draw.covered_count = draw.visible_count = 0;
       if (!one_in(16)) draw.indices = nullptr, draw.index_count = 0;
       if (!one_in(16)) draw.identifier_count = 0;
       if (!one_in(16)) draw.attribute_count = 0;
-      draw.covered_count = draw.visible_count = 0;
       unused |= draw.indices != nullptr || draw.index_count + draw.identifier_count + draw.attribute_count != 0;
       const std::size_t count = one_in(16) ? in_.below(4) : std::min<std::size_t>(draw.vertex_count, 64);
       std::vector<float> positions(4 * count);
       for (float& place : positions) place = one_in(32) ? real() : static_cast<float>(in_.below(3));
       std::vector<std::uint32_t> indices(3 * in_.below(12));
-      for (std::uint32_t& index : indices) index = in_.below(static_cast<std::uint32_t>(count + (one_in(64) ? 1 : 0)));
+      for (std::uint32_t& index : indices)
+        index = in_.below(static_cast<std::uint32_t>(count + (count == 0 || one_in(64) ? 1 : 0)));
       const surefill_status made =
           surefill_occluder_mesh_create(positions.data(), count, 16, indices.data(), indices.size(), &c_meshes[i]);
       const Status expected = meshes[i].prepare(positions, indices, 4);

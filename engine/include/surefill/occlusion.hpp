@@ -74,7 +74,7 @@ class SUREFILL_API OcclusionBuffer {
   // Whether equal depth hides [O6]: if true, a box is hidden only if its nearest depth is farther than all of the stored
   // depths. False at first; resize and clear leave it as it is.
   void equal_is_visible(bool value) noexcept { equal_is_visible_ = value; }
-  bool equal_is_visible() const noexcept { return equal_is_visible_; }
+  bool equal_is_visible() const noexcept { return equal_is_visible_; }  // whether it is so
 
   int width() const noexcept;   // pixels
   int height() const noexcept;  // pixels
@@ -108,8 +108,8 @@ class SUREFILL_API OccluderMesh {
   Status prepare(std::span<const float> positions, std::span<const std::uint32_t> indices,
                  std::uint32_t stride = 3) noexcept;
 
-  std::size_t vertices() const noexcept;
-  std::size_t triangles() const noexcept;
+  std::size_t vertices() const noexcept;   // how many were prepared
+  std::size_t triangles() const noexcept;  // the same
 
  private:
   friend class SafeOcclusionBuffer;
@@ -156,7 +156,7 @@ class SUREFILL_API SafeOcclusionBuffer {
 
   // As OcclusionBuffer's [O6].
   void equal_is_visible(bool value) noexcept { equal_is_visible_ = value; }
-  bool equal_is_visible() const noexcept { return equal_is_visible_; }
+  bool equal_is_visible() const noexcept { return equal_is_visible_; }  // whether it is so
 
   int width() const noexcept;   // pixels
   int height() const noexcept;  // pixels

@@ -28,11 +28,6 @@ CaseResult skipped_case() {
   return result;
 }
 
-bool has_points_or_lines(const Scene& scene) {
-  return std::any_of(scene.draws.begin(), scene.draws.end(),
-                     [](const corpus::SceneDraw& draw) { return draw.primitive != Primitive::triangles; });
-}
-
 void add_corpus_checks(const Settings& settings, std::vector<Check>& checks) {
   const auto scenes = std::make_shared<std::vector<std::pair<std::string, Scene>>>();
   const auto prepare = [&settings, scenes] {
@@ -70,7 +65,6 @@ void add_corpus_checks(const Settings& settings, std::vector<Check>& checks) {
   second.exhaustive = true;
   second.cost = 4e-4;
   second.run = [scenes, case_of](std::uint64_t number) {
-    if (has_points_or_lines((*scenes)[number].second)) return skipped_case();
     return case_of(number, properties::oracle_renderer(), properties::clipped_oracle_renderer());
   };
   second.still_fails = still_differs(properties::oracle_renderer(), properties::clipped_oracle_renderer());

@@ -81,7 +81,6 @@ bool supported(const corpus::Scene& scene, const Support& support) {
   for (const corpus::SceneDraw& draw : scene.draws) {
     if (draw.grid && !support.grid) return false;
     if (draw.conservative != Conservative::none && !support.conservative) return false;
-    if (draw.primitive != Primitive::triangles) return false;
   }
   return true;
 }

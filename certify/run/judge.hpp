@@ -17,7 +17,7 @@ struct Support {
 };
 Support probe_support(const properties::Renderer& renderer);
 
-// Does the rasterizer have every mode of this scene? False, too, for points and lines (M7).
+// Does the rasterizer have every mode of this scene?
 bool supported(const corpus::Scene& scene, const Support& support);
 
 // The vertices that pass a viewport (S3: surefill::to_pixel against the oracle's), then the image, output by output. In
@@ -25,7 +25,7 @@ bool supported(const corpus::Scene& scene, const Support& support);
 properties::Comparison judge(const corpus::Scene& scene, const properties::Renderer& expected,
                              const properties::Renderer& actual, std::size_t keep = 1);
 
-// Is the scene one that a rasterizer has to draw (surefill::validate)? False, too, for points and lines.
+// Is the scene one that a rasterizer has to draw (surefill::validate)?
 bool valid(const corpus::Scene& scene);
 
 // properties::describe, and "vertex" as well.

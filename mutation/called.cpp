@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "certify/judge/facts.hpp"
 #include "certify/judge/inference.hpp"
 #include "certify/judge/words.hpp"
 #include "certify/rivals/model.hpp"
@@ -164,8 +165,20 @@ std::vector<std::string> called(Pool& pool, Render render) {
     if (render(actual.target(), actual.draws()) != Status::ok) return std::nullopt;
     return judge::Wrong{scene, std::move(expected.image()), std::move(actual.image())};
   };
-  const std::vector<judge::Name> names = judge::name_fault(certify::known_faults(), wrong, false);
-  const std::vector<std::string> likely = certify::sentences_of(names, wrong, fine, {still_wrong, both});
+  const std::vector<judge::Name> names = judge::name_fault(certify::known_faults(), wrong, 0);
+  const auto image = [](const auto& renderer) {
+    return [renderer](const Scene& scene) -> std::optional<Image> {
+      corpus::Frame frame(scene, properties::outputs_of(scene));
+      if (renderer(frame.target(), frame.draws()) != Status::ok) return std::nullopt;
+      return std::move(frame.image());
+    };
+  };
+  judge::Questions questions{image(render), image(right), found.known ? found.model : judge::Model{}, true};
+  // Samples that are moved are said by the model.
+  if (found.known) questions.model = judge::with_facts(judge::Model{}, found.model);
+  std::vector<std::string> likely = judge::ask(questions, certify::known_faults()).sentences;
+  for (const std::string& sentence : certify::sentences_of(names, wrong, fine, {still_wrong, both}))
+    likely.push_back(sentence);
   // A fault that draws all of it is said before what probing finds.
   const bool sure = wrong.size() >= 8 && !names.empty() && names.front().agreement >= 0.98;
   sentences.insert(sure ? sentences.begin() : sentences.end(), likely.begin(), likely.end());
@@ -213,7 +226,7 @@ bool zoo_names(const std::function<void(const std::string&)>& print) {
     if (certify::interrupted()) return false;
     std::vector<Scene> fine;
     const std::vector<judge::Wrong> wrong = shown_wrong(pool, specimen.render, fine);
-    const std::vector<judge::Name> names = judge::name_fault(certify::known_faults(), wrong, false);
+    const std::vector<judge::Name> names = judge::name_fault(certify::known_faults(), wrong, 0);
     // Faults that explain it as well are one with it as far as anybody can tell.
     const bool good = std::any_of(names.begin(), names.end(), [&](const judge::Name& name) {
       return name.fault->name == specimen.name && name.agreement == names.front().agreement;

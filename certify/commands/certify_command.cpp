@@ -139,7 +139,8 @@ std::vector<std::string> names_of(const RivalSubject& subject, std::span<const C
     if (triangles) scenes.push_back(std::move(scene));
   }
   const bool failed = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.failed > 0; });
-  if (!failed || subject.rival->given_up()) return {};
+  // Of one whose model nobody knows little is owed: what is odd about it is said all the same, as notes.
+  if ((!failed && subject.terms.known) || subject.rival->given_up()) return {};
   return explain_rival(subject, scenes);
 }
 
@@ -403,7 +404,13 @@ int run_certify(const CertifyOptions& options, const std::function<std::string()
   const bool complete = std::all_of(certificate.results.begin(), certificate.results.end(),
                                     [](const CheckResult& result) { return result.complete(); });
   if (rival && !complete && rival->given_up()) facts.stopped = rival->why_given_up();
-  if (rival && !facts.interrupted) facts.names = names_of(subject, certificate.results);
+  if (rival && !facts.interrupted) {
+    const std::vector<std::string> names = names_of(subject, certificate.results);
+    const bool failed = std::any_of(certificate.results.begin(), certificate.results.end(),
+                                    [](const CheckResult& result) { return result.failed > 0; });
+    (failed ? facts.names : facts.departures)
+        .insert((failed ? facts.names : facts.departures).end(), names.begin(), names.end());
+  }
   if (rival) {
     std::string names;
     for (const std::string& name : not_challenged(subject)) names += (names.empty() ? "" : ", ") + name;

@@ -19,9 +19,10 @@ bool finite(const Vertex& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
 }
 
-// Beside 0, numbers of 2^-32 to 2^32: no standard says what becomes of others.
+// Beside 0, numbers of 2^-32 to 2^32: no standard says what becomes of others. Of what is not finite B1 says that its triangle
+// covers nothing, to those who claim to have it so.
 bool ordinary(float value) {
-  return value == 0 || (std::abs(value) >= 0x1p-32f && std::abs(value) <= 0x1p32f);
+  return value == 0 || !std::isfinite(value) || (std::abs(value) >= 0x1p-32f && std::abs(value) <= 0x1p32f);
 }
 
 std::uint32_t identifier_of(const Draw& draw, std::size_t t) {

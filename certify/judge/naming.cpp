@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 
 namespace surefill::judge {
 
@@ -11,17 +12,15 @@ namespace {
 using corpus::Image;
 
 // The outputs of one sample, equal or not; what an image lacks is equal.
-bool same_sample(const Image& a, const Image& b, std::size_t s, bool counts_only) {
-  const auto bits = [](float value) { return value != value ? 0x7FC00000u : std::bit_cast<std::uint32_t>(value); };
+bool same_sample(const Image& a, const Image& b, std::size_t s, double within) {
   const auto same = [s](const auto& x, const auto& y) { return x.empty() || y.empty() || x[s] == y[s]; };
   const auto same_floats = [&](const std::vector<float>& x, const std::vector<float>& y, std::size_t n) {
     for (std::size_t i = n * s; i < n * (s + 1) && !x.empty() && !y.empty(); ++i) {
-      if (bits(x[i]) != bits(y[i])) return false;
+      if (!alike_within(x[i], y[i], within)) return false;
     }
     return true;
   };
   if (!same(a.count, b.count)) return false;
-  if (counts_only) return true;
   if (!same(a.index, b.index) || !same_floats(a.depth, b.depth, 1) || !same_floats(a.barycentrics, b.barycentrics, 3)) {
     return false;
   }
@@ -34,8 +33,14 @@ bool same_sample(const Image& a, const Image& b, std::size_t s, bool counts_only
 
 }  // namespace
 
-std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wrong> wrong, bool counts_only,
-                             double least) {
+bool alike_within(float a, float b, double within) {
+  const auto bits = [](float value) { return value != value ? 0x7FC00000u : std::bit_cast<std::uint32_t>(value); };
+  if (bits(a) == bits(b)) return true;
+  if (within == 0 || !std::isfinite(a) || !std::isfinite(b)) return false;
+  return std::abs(double{a} - b) <= within * std::max({1.0, std::abs(double{a}), std::abs(double{b})});
+}
+
+std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wrong> wrong, double within, double least) {
   std::vector<Name> names;
   for (const Fault& fault : faults) {
     // Each scene has one vote, so that a large one does not outvote the others.
@@ -50,11 +55,11 @@ std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wron
       std::uint64_t either = 0, alike = 0;
       const std::size_t total = shown.rival.count.size();
       for (std::size_t s = 0; s < total; ++s) {
-        const bool rival = !same_sample(shown.rival, shown.right, s, counts_only);
-        const bool theirs = !same_sample(frame.image(), shown.right, s, counts_only);
+        const bool rival = !same_sample(shown.rival, shown.right, s, within);
+        const bool theirs = !same_sample(frame.image(), shown.right, s, within);
         if (!rival && !theirs) continue;
         ++either;
-        if (same_sample(frame.image(), shown.rival, s, counts_only)) ++alike;
+        if (same_sample(frame.image(), shown.rival, s, within)) ++alike;
       }
       if (either == 0) continue;
       sum += static_cast<double>(alike) / static_cast<double>(either);

@@ -34,10 +34,13 @@ struct Name {
   std::uint64_t samples = 0;
 };
 
-// The best explanation first; none below `least`. Equal ones are in the order of the faults. With `counts_only` all else
-// is left out, as where values are not exact.
-std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wrong> wrong, bool counts_only,
+// The best explanation first; none below `least`. Equal ones are in the order of the faults. Values are alike that are
+// within `within` of each other, as a part of 1 or of their size; 0: to the bit.
+std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wrong> wrong, double within,
                              double least = 0.5);
+
+// What is alike within that.
+bool alike_within(float a, float b, double within);
 
 }  // namespace surefill::judge
 

@@ -177,9 +177,11 @@ std::string text(const char* form, double a, double b = 0) {
   return buffer.data();
 }
 
-void add_depth(std::span<const Wrong> wrong, std::vector<std::string>& sentences) {
+void add_depth(std::span<const Wrong> wrong, double within, std::vector<std::string>& sentences) {
   const auto empty = [](float z) { return std::isinf(z); };
-  const auto clamped = [&](float z, float got) { return empty(z) ? got == z : got == std::clamp(z, 0.0f, 1.0f); };
+  const auto clamped = [&](float z, float got) {
+    return empty(z) ? got == z : alike_within(got, std::clamp(z, 0.0f, 1.0f), within);
+  };
   if (following(wrong, &Image::depth, clamped).all()) {
     sentences.emplace_back("depth is clamped to 0 to 1, whether that was asked for or not");
     return;
@@ -210,14 +212,14 @@ void add_depth(std::span<const Wrong> wrong, std::vector<std::string>& sentences
   const double slope = (static_cast<double>(high_got) - low_got) / (static_cast<double>(high) - low);
   const double constant = low_got - slope * low;
   const auto on_line = [&](float z, float got) {
-    return !std::isfinite(z) || std::abs(z) > 16 || std::abs(slope * z + constant - got) <= 1e-5;
+    return !std::isfinite(z) || std::abs(z) > 16 || std::abs(slope * z + constant - got) <= std::max(1e-5, within);
   };
   if (following(wrong, &Image::depth, on_line).all() && (std::abs(slope - 1) > 1e-4 || std::abs(constant) > 1e-4)) {
     sentences.push_back(text("depth is %.4g z %+.4g, z being what it should be", slope, constant));
   }
 }
 
-void add_barycentrics(std::span<const Wrong> wrong, std::vector<std::string>& sentences) {
+void add_barycentrics(std::span<const Wrong> wrong, double within, std::vector<std::string>& sentences) {
   constexpr std::array<std::array<std::size_t, 3>, 5> kOrders{{{0, 2, 1}, {1, 0, 2}, {1, 2, 0}, {2, 0, 1}, {2, 1, 0}}};
   for (const auto& order : kOrders) {
     std::size_t scenes = 0, follow = 0;
@@ -227,7 +229,7 @@ void add_barycentrics(std::span<const Wrong> wrong, std::vector<std::string>& se
       ++scenes;
       bool good = true;
       for (std::size_t s = 0; s + 2 < right.size() && good; s += 3) {
-        for (std::size_t i = 0; i < 3; ++i) good = good && same(rival[s + i], right[s + order[i]]);
+        for (std::size_t i = 0; i < 3; ++i) good = good && alike_within(rival[s + i], right[s + order[i]], within);
       }
       if (good) ++follow;
     }
@@ -240,7 +242,8 @@ void add_barycentrics(std::span<const Wrong> wrong, std::vector<std::string>& se
 }
 
 // Attributes, all components of all of them.
-void add_attributes(std::span<const Wrong> wrong, std::vector<std::string>& sentences) {
+void add_attributes(std::span<const Wrong> wrong, double within, std::vector<std::string>& sentences) {
+  const auto is = [within](float got, float wanted) { return alike_within(got, wanted, within); };
   const auto follow = [&wrong](const auto& follows) {
     std::size_t scenes = 0, good = 0;
     for (const Wrong& shown : wrong) {
@@ -266,13 +269,13 @@ void add_attributes(std::span<const Wrong> wrong, std::vector<std::string>& sent
   };
   if (follow([](float, float got) { return got == 0; })) {
     sentences.emplace_back("attributes are 0");
-  } else if (follow([](float a, float got) { return got == std::clamp(a, 0.0f, 1.0f); })) {
+  } else if (follow([&is](float a, float got) { return is(got, std::clamp(a, 0.0f, 1.0f)); })) {
     sentences.emplace_back("attributes are clamped to 0 to 1");
-  } else if (follow([](float a, float got) { return got == std::clamp(a, -1.0f, 1.0f); })) {
+  } else if (follow([&is](float a, float got) { return is(got, std::clamp(a, -1.0f, 1.0f)); })) {
     sentences.emplace_back("attributes are clamped to -1 to 1");
-  } else if (follow([](float a, float got) { return got == std::max(a, 0.0f); })) {
+  } else if (follow([&is](float a, float got) { return is(got, std::max(a, 0.0f)); })) {
     sentences.emplace_back("negative attributes become 0");
-  } else if (follow([](float a, float got) { return got == std::abs(a); })) {
+  } else if (follow([&is](float a, float got) { return is(got, std::abs(a)); })) {
     sentences.emplace_back("attributes lose their sign");
   } else if (follow([](float a, float got) { return got == std::trunc(a) || got == std::nearbyint(a); })) {
     sentences.emplace_back("attributes are rounded to whole numbers");
@@ -535,9 +538,9 @@ std::vector<std::string> symptoms(std::span<const Wrong> wrong, std::span<const 
   if (wrong.size() < kLeastScenes) return sentences;
   add_counts(wrong, sentences);
   add_index(wrong, sentences);
-  add_depth(wrong, sentences);
-  add_barycentrics(wrong, sentences);
-  add_attributes(wrong, sentences);
+  add_depth(wrong, trials.within, sentences);
+  add_barycentrics(wrong, trials.within, sentences);
+  add_attributes(wrong, trials.within, sentences);
   const auto add = [&sentences](const std::string& sentence) {
     if (!sentence.empty()) sentences.push_back(sentence);
   };

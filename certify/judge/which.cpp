@@ -131,7 +131,14 @@ bool any(const std::array<double, 3>& a, double low, double high) {
   return std::any_of(a.begin(), a.end(), [&](double value) { return value < low || value > high; });
 }
 
+std::size_t behind(const Triangle& t) {
+  return static_cast<std::size_t>(std::count_if(t.v.begin(), t.v.end(), [](const SceneVertex& v) { return v.w <= 0; }));
+}
+
 constexpr Yes<Triangle> kTrianglesWith[] = {
+    {"with one vertex behind the eye (W <= 0), not those with two,", [](const Triangle& t) { return behind(t) == 1; }},
+    {"with two vertices behind the eye (W <= 0), not those with one,",
+     [](const Triangle& t) { return behind(t) == 2; }},
     {"with a vertex behind the eye (W <= 0)", [](const Triangle& t) { return !in_front(t); }},
     {"that face away (back faces, counter-clockwise)", [](const Triangle& t) { return in_front(t) && turn(t) < 0; }},
     {"that face the eye (front faces, clockwise)", [](const Triangle& t) { return in_front(t) && turn(t) > 0; }},
@@ -154,6 +161,18 @@ constexpr Yes<Triangle> kTrianglesWith[] = {
      [](const Triangle& t) { return t.v[0].w == t.v[1].w && t.v[0].w == t.v[2].w; }},
     {"whose vertices have a W other than 1",
      [](const Triangle& t) { return t.v[0].w != 1 || t.v[1].w != 1 || t.v[2].w != 1; }},
+    {"with a level upper edge",
+     [](const Triangle& t) {
+       const auto y = ys(t);
+       const double top = std::min({y[0], y[1], y[2]});
+       return in_front(t) && std::count(y.begin(), y.end(), top) == 2;
+     }},
+    {"with a level lower edge",
+     [](const Triangle& t) {
+       const auto y = ys(t);
+       const double bottom = std::max({y[0], y[1], y[2]});
+       return in_front(t) && std::count(y.begin(), y.end(), bottom) == 2;
+     }},
     {"with a level edge",
      [](const Triangle& t) {
        const auto y = ys(t);

@@ -17,6 +17,7 @@ namespace surefill::judge {
 struct Trials {
   std::function<bool(const corpus::Scene&)> still_wrong;           // is this scene drawn wrongly, too?
   std::function<std::optional<Wrong>(const corpus::Scene&)> draw;  // its two images; none where either is not drawn
+  double within = 0;                                               // values are alike: name_fault
 };
 
 // "triangles that are less than 0.5 pixels high are not drawn"; empty if nothing tells them apart. Triangles of wrong and

@@ -75,27 +75,45 @@ bool infer_rows(Rival& rival, Inference& result) {
   return true;
 }
 
-// One depth all over the target: what comes back says what range it has been taken for.
-void infer_depth_range(Rival& rival, Inference& result) {
-  if (!(rival.info().outputs & SUREFILL_ADAPTER_DEPTH)) return;
-  std::array<float, 2> found{};
-  const std::array<float, 2> drawn{0.25f, 0.75f};
-  for (std::size_t n = 0; n < 2; ++n) {
-    const Scene scene = flat_scene(8, 8, {{{{0, 0}, {8, 0}, {0, 8}}}, {{{0, 0}, {0, 8}, {8, 0}}}}, drawn[n]);
+// One depth all over the target: what comes back of four.
+using FlatDepths = std::array<float, 4>;
+constexpr FlatDepths kFlatDepths{0.25f, 0.75f, 0.0625f, 0.9375f};
+
+FlatDepths flat_depths(Rival& rival) {
+  FlatDepths found{};
+  for (std::size_t n = 0; n < found.size(); ++n) {
+    const Scene scene = flat_scene(8, 8, {{{{0, 0}, {8, 0}, {0, 8}}}, {{{0, 0}, {0, 8}, {8, 0}}}}, kFlatDepths[n]);
     found[n] = JudgedRival(rival).draw(scene, {false, false, true, false, false}).depth[2 * 8 + 2];
   }
+  return found;
+}
+
+// Which range its clip depth has. That it is -1 to 1 is said only if all depths come back right under it.
+void infer_depth_range(Rival& rival, Inference& result) {
+  if (!(rival.info().outputs & SUREFILL_ADAPTER_DEPTH)) return;
   // No model has depths that are off by this much.
-  const auto is = [&found](float a, float b) {
-    return std::abs(found[0] - a) < 0.01f && std::abs(found[1] - b) < 0.01f;
+  const auto come = [](const FlatDepths& found, float slope, float constant) {
+    for (std::size_t n = 0; n < found.size(); ++n) {
+      if (!(std::abs(found[n] - (slope * kFlatDepths[n] + constant)) < 0.01f)) return false;
+    }
+    return true;
   };
-  if (is(0.25f, 0.75f)) return;
+  const FlatDepths found = flat_depths(rival);
+  if (come(found, 1, 0)) return;
   const bool minus_one = result.model.depth_range == SUREFILL_ADAPTER_MINUS_ONE_TO_ONE;
-  if (is(0.625f, 0.875f) && !minus_one && rival.info().form == SUREFILL_ADAPTER_FORM_CLIP) {
-    result.model.depth_range = SUREFILL_ADAPTER_MINUS_ONE_TO_ONE;
-  } else {
-    result.problems.push_back(
-        fmt::format("triangles of depth 0.25 and 0.75 have depth {:.9g} and {:.9g}", found[0], found[1]));
+  if (come(found, 0.5f, 0.5f) && !minus_one && rival.info().form == SUREFILL_ADAPTER_FORM_CLIP) {
+    surefill_adapter_model other = result.model;
+    other.depth_range = SUREFILL_ADAPTER_MINUS_ONE_TO_ONE;
+    rival.set_model(other);
+    const bool explains = come(flat_depths(rival), 1, 0);
+    rival.set_model(result.model);
+    if (explains) {
+      result.model = other;
+      return;
+    }
   }
+  result.problems.push_back(
+      fmt::format("triangles of depth 0.25 and 0.75 have depth {:.9g} and {:.9g}", found[0], found[1]));
 }
 
 judge::Standard standard_of(std::uint32_t profile) {

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
+#include "certify/judge/facts.hpp"
+#include "certify/judge/images.hpp"
 #include "certify/judge/symptoms.hpp"
 #include "certify/rivals/rival_checks.hpp"
 #include "mutation/zoo/zoo.hpp"
@@ -34,6 +37,38 @@ std::span<const judge::Fault> known_faults() {
 
 namespace {
 
+// Values that are not the oracle's to the bit are alike within this, as a part of 1 or of their size.
+constexpr double kWithin = 0x1p-9;
+
+double within_of(const RivalSubject& subject) {
+  return subject.strict ? 0 : kWithin;
+}
+
+// What the judge has nothing against is set right, so that what is left is wrong.
+void set_right(const RivalSubject& subject, const corpus::Frame& frame, judge::Wrong& shown) {
+  const Target& target = frame.target();
+  const judge::Judgement judgement = judge::judge_image(
+      adapters::oracle_expected(), subject.terms,
+      {target.width, target.height, target.samples, target.depth_test, !target.initial_depth.empty(), frame.draws()},
+      shown.rival, {}, shown.scene.attributes);
+  const std::size_t total = judgement.differs.size();
+  const auto copy = [total](const auto& from, auto& to, std::size_t s) {
+    if (from.empty() || from.size() != to.size()) return;
+    const std::size_t n = from.size() / total;
+    std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(n * s), n, to.begin() + static_cast<std::ptrdiff_t>(n * s));
+  };
+  for (std::size_t s = 0; s < total; ++s) {
+    if (judgement.differs[s]) continue;
+    copy(shown.right.count, shown.rival.count, s);
+    copy(shown.right.index, shown.rival.index, s);
+    copy(shown.right.depth, shown.rival.depth, s);
+    copy(shown.right.barycentrics, shown.rival.barycentrics, s);
+    for (std::size_t k = 0; k < std::min(shown.right.attributes.size(), shown.rival.attributes.size()); ++k) {
+      copy(shown.right.attributes[k], shown.rival.attributes[k], s);
+    }
+  }
+}
+
 // Both images of a scene that is under the rival's model; none where either says that it is no frame.
 std::optional<judge::Wrong> both(const RivalSubject& subject, const Scene& scene) {
   adapters::Rival& rival = *subject.rival;
@@ -43,13 +78,60 @@ std::optional<judge::Wrong> both(const RivalSubject& subject, const Scene& scene
     if (validate(right.target(), right.draws()) != Status::ok) return std::nullopt;
     rival.draw(actual.target(), actual.draws());
     oracle::render(right.target(), right.draws());
-    return judge::Wrong{scene, std::move(right.image()), std::move(actual.image())};
+    judge::Wrong shown{scene, std::move(right.image()), actual.image()};
+    if (!subject.strict) set_right(subject, actual, shown);
+    return shown;
   } catch (const std::exception&) {
     return std::nullopt;  // what it does not draw shows no picture
   }
 }
 
+// Whoever asks must be gone before the subject is.
+judge::Questions questions_of(const RivalSubject& subject) {
+  judge::Questions questions;
+  questions.slow = subject.slow;
+  questions.model = subject.terms.model;
+  if (!subject.terms.known) {
+    questions.model = judge::with_facts(judge::Model{}, subject.terms.model);
+    questions.model.x.lacks = subject.terms.model.x.lacks, questions.model.y.lacks = subject.terms.model.y.lacks;
+  }
+  questions.rival = [&subject](const Scene& scene) -> std::optional<corpus::Image> {
+    adapters::Rival& rival = *subject.rival;
+    const adapters::Rival::Uncounted uncounted(rival);
+    if (rival.given_up() || !rival.is_reducible()) return std::nullopt;
+    try {
+      corpus::Frame frame(scene, outputs_with(rival, scene));
+      if (validate(frame.target(), frame.draws()) != Status::ok) return std::nullopt;
+      rival.draw(frame.target(), frame.draws());
+      return std::move(frame.image());
+    } catch (const std::exception&) {
+      return std::nullopt;
+    }
+  };
+  questions.right = [&subject, model = questions.model](const Scene& scene) -> std::optional<corpus::Image> {
+    const Scene under = adapters::scene_under_model(moved(scene, model), subject.rival->info());
+    corpus::Frame frame(under, outputs_with(*subject.rival, scene));
+    if (validate(frame.target(), frame.draws()) != Status::ok) return std::nullopt;
+    oracle::render(frame.target(), frame.draws());
+    return std::move(frame.image());
+  };
+  return questions;
+}
+
 }  // namespace
+
+Scene moved(Scene scene, const judge::Model& model) {
+  for (corpus::SceneDraw& draw : scene.draws) {
+    for (corpus::SceneVertex& v : draw.vertices) {
+      const double x = v.x * (scene.width - model.x.lacks) / scene.width + (model.x.moved + 0.5 - model.x.place) * v.w;
+      const double y =
+          v.y * (scene.height - model.y.lacks) / scene.height + (model.y.moved + 0.5 - model.y.place) * v.w;
+      v.x = static_cast<float>(x);
+      v.y = static_cast<float>(y);
+    }
+  }
+  return scene;
+}
 
 std::vector<judge::Wrong> wrong_scenes(const RivalSubject& subject, std::span<const Scene> found, std::size_t most,
                                        std::vector<Scene>& fine) {
@@ -100,19 +182,35 @@ std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::s
 }
 
 std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const Scene> found) {
-  if (subject.rival->info().model.kind == SUREFILL_ADAPTER_MODEL_UNKNOWN) return {};
-  std::vector<Scene> fine;
-  const std::vector<judge::Wrong> wrong = wrong_scenes(subject, found, kScenes, fine);
-  if (wrong.empty()) return {};
-  const judge::Trials trials{[&subject](const Scene& scene) {
-                               try {
-                                 return !subject.rival->given_up() && judge_scene(scene, subject).differences > 0;
-                               } catch (const std::exception&) {
-                                 return false;
-                               }
-                             },
-                             [&subject](const Scene& scene) { return both(subject, scene); }};
-  return sentences_of(judge::name_fault(known_faults(), wrong, !subject.strict), wrong, fine, trials);
+  constexpr std::size_t kMost = 3;
+  const judge::Questions questions = questions_of(subject);
+  const judge::Answers answers = judge::ask(questions, known_faults());
+  std::vector<Scene> fine = answers.fine;
+  std::vector<judge::Wrong> wrong = answers.wrong;
+  judge::Trials trials{[&questions](const Scene& scene) {
+                         const std::optional<judge::Wrong> shown = judge::answer(questions, scene);
+                         return shown && judge::differs(*shown);
+                       },
+                       [&questions](const Scene& scene) { return judge::answer(questions, scene); }, kWithin};
+  if (subject.rival->info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN) {
+    fine.clear();
+    wrong = wrong_scenes(subject, found, kScenes, fine);
+    trials = {[&subject](const Scene& scene) {
+                try {
+                  return !subject.rival->given_up() && judge_scene(scene, subject).differences > 0;
+                } catch (const std::exception&) {
+                  return false;
+                }
+              },
+              [&subject](const Scene& scene) { return both(subject, scene); }, within_of(subject)};
+  }
+  std::vector<std::string> sentences = answers.sentences;
+  if (!wrong.empty()) {
+    const std::vector<judge::Name> names = judge::name_fault(known_faults(), wrong, trials.within);
+    for (const std::string& sentence : sentences_of(names, wrong, fine, trials)) sentences.push_back(sentence);
+  }
+  if (sentences.size() > kMost) sentences.resize(kMost);
+  return sentences;
 }
 
 std::string name_text(const judge::Name& name) {

@@ -26,15 +26,13 @@ judge::Frame frame_of(const Target& target, std::span<const Draw> draws) {
   return {target.width, target.height, target.samples, target.depth_test, !target.initial_depth.empty(), draws};
 }
 
-// Vertices behind the eye, beyond R7's band, or not numbers.
+// Vertices behind the eye, or beyond R7's band. A triangle with one that is no number covers nothing (B1).
 bool leaves_open(std::span<const Draw> draws) {
   for (const Draw& draw : draws) {
     for (const Vertex& v : draw.vertices) {
+      if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w)) continue;
       const double band = 16384.0 * v.w;
-      if (!(v.w > 0) || !std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z) || !std::isfinite(v.w) ||
-          std::abs(v.x) > band || std::abs(v.y) > band) {
-        return true;
-      }
+      if (!(v.w > 0) || std::abs(v.x) > band || std::abs(v.y) > band) return true;
     }
   }
   return false;

@@ -50,7 +50,7 @@ corpus::Outputs outputs_with(const adapters::Rival& rival, const corpus::Scene& 
 // Draws the scene with both, and compares what is owed.
 CaseResult judge_scene(const corpus::Scene& scene, const RivalSubject& subject, const judge::Looks& looks = {});
 
-// Are some vertices behind the eye, beyond the guard band, or not numbers? How such triangles are clipped is open in all
+// Are some vertices behind the eye, or beyond the guard band? How such triangles are clipped is open in all
 // profiles but exact.
 bool is_clipped(const corpus::Scene& scene);
 

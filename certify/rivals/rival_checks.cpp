@@ -32,13 +32,17 @@ bool exact_profile(const Rival& rival) {
 // a vertex behind the eye, they become 1/2 throughout), attributes out of range become 1. What claims to clamp or clip
 // depth keeps depths beyond the range, in draws that ask for it.
 void make_ordinary(corpus::SceneDraw& draw, std::uint32_t features) {
-  const bool front = std::all_of(draw.vertices.begin(), draw.vertices.end(), [](const auto& v) { return v.w > 0; });
+  const bool front =
+      std::all_of(draw.vertices.begin(), draw.vertices.end(), [](const auto& v) { return v.w > 0 || std::isnan(v.w); });
   const bool beyond = front && ((draw.depth_mode == DepthMode::clamp && (features & SUREFILL_ADAPTER_DEPTH_CLAMP)) ||
                                 (draw.depth_mode == DepthMode::clip && (features & SUREFILL_ADAPTER_DEPTH_CLIP)));
   for (corpus::SceneVertex& v : draw.vertices) {
-    if (!draw.viewport) v.z = !front ? v.w / 2 : beyond ? std::clamp(v.z, -v.w, 2 * v.w) : std::clamp(v.z, 0.0f, v.w);
+    const bool stays = !std::isfinite(v.z) && (features & SUREFILL_ADAPTER_NON_FINITE);
+    if (!draw.viewport && !stays)
+      v.z = !front ? v.w / 2 : beyond ? std::clamp(v.z, -v.w, 2 * v.w) : std::clamp(v.z, 0.0f, v.w);
     for (float& value : v.attributes) {
       const float magnitude = std::abs(value);
+      if (!std::isfinite(value) && (features & SUREFILL_ADAPTER_NON_FINITE)) continue;
       if (value != 0 && !(magnitude >= 0x1p-32f && magnitude <= 0x1p32f)) value = 1;
     }
   }

@@ -2,6 +2,7 @@
 //
 // Further ways to be wrong, of which naming knows: no property has a duty to reject them, so they are not in the matrix.
 // Most are the right image of another draw.
+#include <optional>
 #include <utility>
 
 #include "mutation/zoo/tools.hpp"
@@ -176,6 +177,38 @@ Status with_depth_of(const Target& target, Draws draws, std::size_t corner) {
 
 std::size_t triangles_of(const Draw& draw) {
   return draw.indices.size() / 3;
+}
+
+// The box of each triangle in front of the eye, whole pixels, begins so much further right and down and ends so much earlier.
+Status with_box(const Target& target, Draws draws, int left, int top, int right_end, int bottom) {
+  return with_counts(target, draws, [=](const Target& t, const Draw& draw) {
+    Counts counts = right_counts(t, draw);
+    const Corners c = corners(draw, 0);
+    if (!in_front(c)) return counts;
+    const Box box = box_of(c);
+    mask(t, counts, [&](int x, int y) {
+      return static_cast<float>(x) >= std::floor(box.x0) + static_cast<float>(left) &&
+             static_cast<float>(y) >= std::floor(box.y0) + static_cast<float>(top) &&
+             static_cast<float>(x) <= std::floor(box.x1) - static_cast<float>(right_end) &&
+             static_cast<float>(y) <= std::floor(box.y1) - static_cast<float>(bottom);
+    });
+    return counts;
+  });
+}
+
+// Positions of so many bits after the point, kept in so many all in all: they wrap.
+Status with_wrapped(const Target& target, Draws draws, int bits, int all) {
+  return with_vertices(target, draws, [bits, all](Vertex v) {
+    const double steps = std::ldexp(1.0, bits), range = std::ldexp(1.0, all);
+    if (!(v.w > 0) || !std::isfinite(v.x) || !std::isfinite(v.y)) return v;
+    const auto wrap = [&](double value) {
+      const double k = std::floor(value * steps + 0.5);
+      return (k - range * std::floor(k / range + 0.5)) / steps;
+    };
+    if (std::abs(v.x / v.w) >= range / steps / 2) v.x = static_cast<float>(wrap(double{v.x} / v.w) * v.w);
+    if (std::abs(v.y / v.w) >= range / steps / 2) v.y = static_cast<float>(wrap(double{v.y} / v.w) * v.w);
+    return v;
+  });
 }
 
 Vertex mirrored(const Target& t, Vertex v, bool x, bool y) {
@@ -457,6 +490,44 @@ constexpr Specimen kLikenesses[] = {
        return with_vertices(t, d, [](Vertex v) {
          if (v.w < 0) v.x = -v.x, v.y = -v.y, v.z = -v.z, v.w = -v.w;
          return v;
+       });
+     }},
+    {"", "the box of a triangle begins a column too late: the first column that it reaches is lost", "", "",
+     [](const Target& t, Draws d) { return with_box(t, d, 1, 0, 0, 0); }},
+    {"", "the box of a triangle begins a row too late: the first row that it reaches is lost", "", "",
+     [](const Target& t, Draws d) { return with_box(t, d, 0, 1, 0, 0); }},
+    {"", "the box of a triangle begins a column and a row too late: the first ones that it reaches are lost", "", "",
+     [](const Target& t, Draws d) { return with_box(t, d, 1, 1, 0, 0); }},
+    {"", "the box of a triangle ends a column too early: the last column that it reaches is lost", "", "",
+     [](const Target& t, Draws d) { return with_box(t, d, 0, 0, 1, 0); }},
+    {"", "the box of a triangle ends a row too early: the last row that it reaches is lost", "", "",
+     [](const Target& t, Draws d) { return with_box(t, d, 0, 0, 0, 1); }},
+    {"", "the box of a triangle ends a column and a row too early: the last ones that it reaches are lost", "", "",
+     [](const Target& t, Draws d) { return with_box(t, d, 0, 0, 1, 1); }},
+    {"", "the box of a triangle is a pixel too small on every side", "", "",
+     [](const Target& t, Draws d) { return with_box(t, d, 1, 1, 1, 1); }},
+    {"", "positions are kept in 16 bits, 8 of them after the point: beyond 128 pixels they wrap", "", "",
+     [](const Target& t, Draws d) { return with_wrapped(t, d, 8, 16); }},
+    {"", "positions are kept in 16 bits, 4 of them after the point: beyond 2048 pixels they wrap", "", "",
+     [](const Target& t, Draws d) { return with_wrapped(t, d, 4, 16); }},
+    {"", "every draw has the state of the last one", "", "",
+     [](const Target& t, Draws d) {
+       return with_state(t, d, [&d](Draw& draw) { draw.state() = d.back().state(); });
+     }},
+    {"", "a scissor stays on for the draws after it that have none", "", "",
+     [](const Target& t, Draws d) {
+       std::optional<Scissor> last;
+       return with_state(t, d, [&last](Draw& draw) {
+         if (draw.scissor) last = draw.scissor;
+         draw.scissor = last;
+       });
+     }},
+    {"", "culling stays on for the draws after it that have none", "", "",
+     [](const Target& t, Draws d) {
+       Cull last = Cull::none;
+       return with_state(t, d, [&last](Draw& draw) {
+         if (draw.cull != Cull::none) last = draw.cull;
+         draw.cull = last;
        });
      }},
     {"", "a triangle without any vertex on the target is lost", "", "",

@@ -1,0 +1,298 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/judge/questions.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace surefill::judge {
+
+namespace {
+
+using corpus::Image;
+using corpus::Scene;
+using corpus::SceneDraw;
+using corpus::SceneVertex;
+using Corners = std::array<SceneVertex, 3>;
+
+constexpr double kMargin = 1.0 / 16;  // from an edge: what the models of section 11 that have a name move
+
+// Is the sample within the margin of the line through an edge? Behind the eye further out, as R9 has it.
+bool near_an_edge(const Scene& scene, double x, double y) {
+  for (const SceneDraw& draw : scene.draws) {
+    for (const corpus::SceneTriangle& t : draw.triangles) {
+      bool front = true;
+      for (const std::uint32_t v : t.vertices) front = front && draw.vertices[v].w > 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const SceneVertex &p = draw.vertices[t.vertices[i]], &q = draw.vertices[t.vertices[(i + 1) % 3]];
+        const double a = double{p.y} * q.w - double{p.w} * q.y, b = double{p.w} * q.x - double{p.x} * q.w;
+        const double c = double{p.x} * q.y - double{p.y} * q.x, length = std::hypot(a, b);
+        if (!std::isfinite(c) || length == 0) continue;
+        const double distance = std::abs(a * x + b * y + c) / length;
+        if (distance >= (front ? kMargin : 0.25)) continue;
+        if (!front) return true;
+        // Beside the edge's ends the line says nothing.
+        const double px = double{p.x} / p.w, py = double{p.y} / p.w, qx = double{q.x} / q.w, qy = double{q.y} / q.w;
+        const double along = (x - px) * (qx - px) + (y - py) * (qy - py), all = std::hypot(qx - px, qy - py);
+        if (along >= -kMargin * all && along <= all * (all + kMargin)) return true;
+      }
+    }
+  }
+  return false;
+}
+
+void copy_sample(const Image& from, Image& to, std::size_t s, bool all) {
+  const auto total = from.count.size();
+  const auto floats = [&](const std::vector<float>& a, std::vector<float>& b) {
+    if (a.empty() || a.size() != b.size()) return;
+    const std::size_t n = a.size() / total;
+    for (std::size_t i = n * s; i < n * (s + 1); ++i) {
+      if (all || alike(a[i], b[i])) b[i] = a[i];
+    }
+  };
+  if (all) to.count[s] = from.count[s];
+  if (all && !to.index.empty()) to.index[s] = from.index[s];
+  floats(from.depth, to.depth);
+  floats(from.barycentrics, to.barycentrics);
+  for (std::size_t k = 0; k < std::min(from.attributes.size(), to.attributes.size()); ++k) {
+    floats(from.attributes[k], to.attributes[k]);
+  }
+}
+
+bool same_floats(const std::vector<float>& a, const std::vector<float>& b) {
+  return b.empty() || std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                                 [](float x, float y) { return x == y || (x != x && y != y); });
+}
+
+bool same_image(const Image& a, const Image& b) {
+  return !differs({{}, a, b});
+}
+
+Scene plain_scene(Random& random, int number, Cull culled, int triangles = 1) {
+  Scene scene = empty_scene(number % 2 == 0 ? 24 : 16, number % 3 == 0 ? 24 : 16);
+  for (int t = 0; t < triangles; ++t) {
+    Corners c = plain_corners(random, scene.width, scene.height);
+    if ((number + t) % 2 == 1) std::swap(c[1], c[2]);
+    add_triangle(scene.draws[0], c, culled);
+  }
+  return scene;
+}
+
+// --- again and again
+
+// Does it draw the same frame alike, at once, and after another one?
+std::string about_repeats(const Questions& questions) {
+  Random random(0x2E9EA7);
+  int at_once = 0, after = 0, all = 0;
+  for (int n = 0; n < 8; ++n) {
+    const Scene scene = plain_scene(random, n, questions.model.culled, 2);
+    Scene other = plain_scene(random, n + 1, questions.model.culled, 3);
+    other.width = scene.width, other.height = scene.height;
+    const auto first = questions.rival(scene), second = questions.rival(scene), between = questions.rival(other),
+               third = questions.rival(scene), fourth = questions.rival(scene);
+    if (!first || !second || !between || !third || !fourth) continue;
+    ++all;
+    at_once += !same_image(*third, *fourth) || (n > 0 && !same_image(*first, *second));
+    after += !same_image(*second, *third);
+  }
+  if (all < 3 || at_once + after == 0) return "";
+  if (at_once == 0 || 3 * after > 4 * at_once) {
+    return "what is drawn depends on the frame before: something is left over, or not cleared";
+  }
+  return "the same frame drawn twice is not the same image: something is random, or counted on from frame to frame";
+}
+
+// A state that one draw or one frame has, and the next has not.
+struct State {
+  const char* name;
+  void (*give)(Scene& scene, SceneDraw& draw);
+};
+constexpr State kStates[] = {
+    {"a scissor",
+     [](Scene&, SceneDraw& d) {
+       d.scissor = Scissor{3, 3, 9, 9};
+     }},
+    {"culling", [](Scene&, SceneDraw& d) { d.cull = Cull::back; }},
+    {"culling", [](Scene&, SceneDraw& d) { d.cull = Cull::front; }},
+    {"counter-clockwise front faces",
+     [](Scene&, SceneDraw& d) { d.front_face = FrontFace::counter_clockwise, d.cull = Cull::back; }},
+    {"depth write off", [](Scene&, SceneDraw& d) { d.depth_write = false; }},
+    {"depth clipping", [](Scene&, SceneDraw& d) { d.depth_mode = DepthMode::clip; }},
+    {"depth clamping", [](Scene&, SceneDraw& d) { d.depth_mode = DepthMode::clamp; }},
+    {"the depth test GREATER", [](Scene& s, SceneDraw&) { s.depth_test = DepthTest::greater; }},
+    {"a depth that is there before", [](Scene& s, SceneDraw&) { s.initial_depth = {0.25f}; }},
+    {"several samples a pixel", [](Scene& s, SceneDraw&) { s.samples = 4; }}};
+constexpr std::size_t kOfDraws = 7;  // the first ones are a draw's own
+
+// After a frame that has a state, the next one keeps it.
+std::string about_states_kept(const Questions& questions) {
+  Random random(0x57A7E);
+  for (const State& state : kStates) {
+    int kept = 0, all = 0;
+    for (int n = 0; n < 6; ++n) {
+      const Scene scene = plain_scene(random, n, questions.model.culled, 3);
+      Scene with = scene;
+      state.give(with, with.draws[0]);
+      const auto before = answer(questions, scene);
+      if (!before || differs(*before) || !questions.rival(with)) continue;
+      const auto after = answer(questions, scene);
+      if (!after) continue;
+      ++all;
+      kept += differs(*after);
+    }
+    if (all >= 3 && 2 * kept >= all) {
+      return std::string("after a frame with ") + state.name + " the next one, without it, is wrong: state is kept";
+    }
+  }
+  return "";
+}
+
+// Two draws of a frame, one of which has a state.
+std::string about_states_of_draws(const Questions& questions, std::span<const Fault> faults) {
+  Random random(0xD2A3);
+  for (std::size_t k = 0; k < kOfDraws; ++k) {
+    std::vector<Wrong> wrong;
+    std::array<int, 2> bad{}, all{};
+    int alone = 0;
+    for (std::size_t n = 0; n < 12; ++n) {
+      Scene scene = plain_scene(random, static_cast<int>(n), questions.model.culled, 2);
+      Scene other = plain_scene(random, static_cast<int>(n), questions.model.culled, 2);
+      scene.draws.push_back(other.draws[0]);
+      kStates[k].give(scene, scene.draws[n % 2]);
+      Scene single = scene;
+      single.draws = {scene.draws[n % 2]};
+      const auto one = answer(questions, single), both = answer(questions, scene);
+      if (!one || !both) break;
+      alone += differs(*one);
+      ++all[n % 2];
+      if (!differs(*both)) continue;
+      ++bad[n % 2];
+      wrong.push_back(*both);
+    }
+    if (all[0] + all[1] < 6 || alone > 1 || wrong.size() < 3) continue;
+    const std::vector<Name> names = name_fault(faults, wrong, 0x1p-8);
+    if (!names.empty() && names.front().agreement >= 0.9) return names.front().fault->sentence;
+    const char* which = bad[1] == 0   ? " another one after it is wrong"
+                        : bad[0] == 0 ? " another one before it is wrong"
+                                      : " another one of the frame is wrong";
+    return std::string("where one draw has ") + kStates[k].name + "," + which + ": state goes from draw to draw";
+  }
+  return "";
+}
+
+}  // namespace
+
+double eighth(Random& random, double low, double high) {
+  return std::nearbyint((low + (high - low) * random.unit()) * 8) / 8;
+}
+
+// A triangle of some size on the target.
+Corners plain_corners(Random& random, int width, int height) {
+  for (;;) {
+    Corners c{};
+    for (SceneVertex& v : c) v = corner(eighth(random, 0, width), eighth(random, 0, height), 0.1 + 0.8 * random.unit());
+    const double turn =
+        (double{c[1].x} - c[0].x) * (double{c[2].y} - c[0].y) - (double{c[1].y} - c[0].y) * (double{c[2].x} - c[0].x);
+    if (std::abs(turn) > 0.25 * width * height) return c;
+  }
+}
+
+Scene empty_scene(int width, int height) {
+  Scene scene;
+  scene.width = width;
+  scene.height = height;
+  scene.draws.emplace_back();
+  return scene;
+}
+
+void add_triangle(SceneDraw& draw, const Corners& corners, Cull culled) {
+  const auto first = static_cast<std::uint32_t>(draw.vertices.size());
+  for (const SceneVertex& v : corners) draw.vertices.push_back(v);
+  corpus::SceneTriangle triangle{{first, first + 1, first + 2}, std::nullopt};
+  const double turn = (double{corners[1].x} / corners[1].w - double{corners[0].x} / corners[0].w) *
+                          (double{corners[2].y} / corners[2].w - double{corners[0].y} / corners[0].w) -
+                      (double{corners[1].y} / corners[1].w - double{corners[0].y} / corners[0].w) *
+                          (double{corners[2].x} / corners[2].w - double{corners[0].x} / corners[0].w);
+  if (culled != Cull::none && (turn > 0) == (culled == Cull::front))
+    std::swap(triangle.vertices[1], triangle.vertices[2]);
+  draw.triangles.push_back(triangle);
+}
+
+std::array<SceneVertex, 3> over_all(int width, int height, double z) {
+  return {corner(0, 0, z), corner(2 * width, 0, z), corner(0, 2 * height, z)};
+}
+
+bool differs(const Wrong& shown) {
+  const Image &a = shown.right, &b = shown.rival;
+  if (a.count != b.count || (!b.index.empty() && a.index != b.index)) return true;
+  if (!same_floats(a.depth, b.depth) || !same_floats(a.barycentrics, b.barycentrics)) return true;
+  for (std::size_t k = 0; k < std::min(a.attributes.size(), b.attributes.size()); ++k) {
+    if (!same_floats(a.attributes[k], b.attributes[k])) return true;
+  }
+  return false;
+}
+
+std::optional<Wrong> answer(const Questions& questions, const Scene& scene) {
+  std::optional<Image> rival = questions.rival(scene);
+  if (!rival || rival->count.empty()) return std::nullopt;
+  std::optional<Image> right = questions.right(scene);
+  if (!right) return std::nullopt;
+  Wrong shown{scene, std::move(*right), std::move(*rival)};
+  const auto samples = static_cast<std::size_t>(scene.samples), width = static_cast<std::size_t>(scene.width);
+  for (std::size_t s = 0; s < shown.right.count.size(); ++s) {
+    const SampleLocation at = sample_location(scene.samples, static_cast<int>(s % samples));
+    const double x = static_cast<double>(s / samples % width) + at.x / 16.0 - 0.5 + questions.model.x.place,
+                 y = static_cast<double>(s / samples / width) + at.y / 16.0 - 0.5 + questions.model.y.place;
+    const bool same = shown.right.count[s] == shown.rival.count[s];
+    copy_sample(shown.right, shown.rival, s, !same && near_an_edge(scene, x, y));
+  }
+  return shown;
+}
+
+Answers ask(const Questions& questions, std::span<const Fault> faults) {
+  Answers answers;
+  const auto say = [&answers](std::string sentence) {
+    if (!sentence.empty()) answers.sentences.push_back(std::move(sentence));
+    return !answers.sentences.empty();
+  };
+  if (say(about_repeats(questions)) || say(about_pattern(questions))) return answers;
+  Random random(0x91A1);
+  int all = 0;
+  for (int n = 0; n < 16; ++n) {
+    const auto shown = answer(questions, plain_scene(random, n, questions.model.culled));
+    if (!shown) continue;
+    ++all;
+    if (shown->right.count != shown->rival.count) {
+      answers.wrong.push_back(*shown);
+    } else {
+      answers.fine.push_back(shown->scene);
+    }
+  }
+  if (all < 4) return answers;
+  if (2 * static_cast<int>(answers.wrong.size()) >= all) {
+    say(about_orders(questions));
+    return answers;
+  }
+  // Where triangles are lost by their number or size, what else is asked would be about that.
+  if ((!questions.slow && say(about_many(questions))) || say(about_small(questions))) return answers;
+  if (!questions.slow) {
+    say(about_counts(questions));
+    say(about_index(questions));
+    say(about_vertices(questions));
+    say(about_sizes(questions));
+  }
+  say(about_scissor(questions));
+  say(about_culling(questions));
+  say(about_depth_modes(questions));
+  say(about_samples(questions));
+  say(how_values_come(questions));
+  say(about_visibility(questions));
+  say(about_far(questions));
+  say(about_behind(questions, faults));
+  say(about_not_numbers(questions));
+  if (answers.sentences.empty()) say(about_states_of_draws(questions, faults));
+  if (answers.sentences.empty()) say(about_states_kept(questions));
+  return answers;
+}
+
+}  // namespace surefill::judge

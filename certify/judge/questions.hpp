@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What is asked where something is wrong: small frames, each about one thing, whose answers away from edges are the same
+// under every model. What comes is measured, and said: "the scissor [x0, x1) x [y0, y1) is taken for [x0, x1 + 1) x ...".
+#ifndef SUREFILL_CERTIFY_JUDGE_QUESTIONS_HPP
+#define SUREFILL_CERTIFY_JUDGE_QUESTIONS_HPP
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "certify/judge/naming.hpp"
+#include "certify/judge/probes.hpp"
+
+namespace surefill::judge {
+
+// Whom to ask, and who knows.
+struct Questions {
+  std::function<std::optional<corpus::Image>(const corpus::Scene&)> rival;  // none where it does not draw
+  std::function<std::optional<corpus::Image>(const corpus::Scene&)> right;
+  Model model;        // as far as it is known: places of samples, what is culled, clipped, cleared to always
+  bool slow = false;  // frames of thousands of triangles are left out
+};
+
+// What both answer to one scene, as far as it is no matter of a model: samples within a margin of an edge, and values that
+// are about the right ones, are set right.
+std::optional<Wrong> answer(const Questions& questions, const corpus::Scene& scene);
+
+bool differs(const Wrong& shown);
+
+// What the answers say.
+struct Answers {
+  std::vector<std::string> sentences;  // the most telling first
+  // Plain triangles that are wrong and right: a few large ones in front of the eye. Where half of them and more are wrong
+  // nothing else was asked.
+  std::vector<Wrong> wrong;
+  std::vector<corpus::Scene> fine;
+};
+
+Answers ask(const Questions& questions, std::span<const Fault> faults);
+
+// --- of the questions themselves
+
+inline bool alike(float a, float b) {
+  if (a == b || (a != a && b != b)) return true;
+  const double size = std::max({1.0, std::abs(double{a}), std::abs(double{b})});
+  return std::abs(double{a} - b) <= 0x1p-9 * size;
+}
+
+// Of values at the corners of triangles, how those at samples come about, if not as they should; empty if nobody knows.
+std::string how_values_come(const Questions& questions);
+
+// Each empty where all is right, or nothing is said.
+std::string about_pattern(const Questions& questions);
+std::string about_many(const Questions& questions);
+std::string about_index(const Questions& questions);
+std::string about_counts(const Questions& questions);
+std::string about_vertices(const Questions& questions);
+std::string about_sizes(const Questions& questions);
+std::string about_far(const Questions& questions);
+std::string about_small(const Questions& questions);
+std::string about_orders(const Questions& questions);
+std::string about_behind(const Questions& questions, std::span<const Fault> faults);
+std::string about_not_numbers(const Questions& questions);
+std::string about_scissor(const Questions& questions);
+std::string about_culling(const Questions& questions);
+std::string about_depth_modes(const Questions& questions);
+std::string about_samples(const Questions& questions);
+std::string about_visibility(const Questions& questions);
+
+// A vertex that comes to lie at (x, y), of depth z.
+inline corpus::SceneVertex corner(double x, double y, double z = 0.5, double w = 1) {
+  return {static_cast<float>(x * w), static_cast<float>(y * w), static_cast<float>(z * w), static_cast<float>(w), {}};
+}
+
+double eighth(Random& random, double low, double high);  // a multiple of 1/8
+corpus::Scene empty_scene(int width, int height);        // with one draw
+// A triangle of some size on a target.
+std::array<corpus::SceneVertex, 3> plain_corners(Random& random, int width, int height);
+
+// A triangle of its own vertices is added to the draw, turned over if its facing is never drawn.
+void add_triangle(corpus::SceneDraw& draw, const std::array<corpus::SceneVertex, 3>& corners, Cull culled = Cull::none);
+
+// Over the whole target, and a target's size beyond it.
+std::array<corpus::SceneVertex, 3> over_all(int width, int height, double z = 0.5);
+
+}  // namespace surefill::judge
+
+#endif  // SUREFILL_CERTIFY_JUDGE_QUESTIONS_HPP

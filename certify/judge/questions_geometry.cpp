@@ -1,0 +1,591 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Questions about which triangles are drawn, and where: many, small, large and far ones, and on which targets.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+
+#include "certify/judge/questions.hpp"
+
+namespace surefill::judge {
+
+namespace {
+
+using corpus::Image;
+using corpus::Scene;
+using corpus::SceneDraw;
+using corpus::SceneVertex;
+using Corners = std::array<SceneVertex, 3>;
+
+std::string text(const char* form, double a, double b = 0) {
+  std::array<char, 192> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), form, a, b);
+  return buffer.data();
+}
+
+// --- many triangles
+
+constexpr int kCells = 64;
+
+// Triangle t over the first pixel of the t-th cell of two pixels each way.
+Scene board(int draws, Cull culled) {
+  Scene scene = empty_scene(2 * kCells, 2 * kCells);
+  scene.draws.resize(static_cast<std::size_t>(draws));
+  for (int t = 0; t < kCells * kCells; ++t) {
+    const double x = 2 * (t % kCells), y = 2 * (t / kCells);
+    add_triangle(scene.draws[static_cast<std::size_t>(t * draws / (kCells * kCells))],
+                 {corner(x + 0.125, y + 0.125), corner(x + 1.375, y + 0.25), corner(x + 0.25, y + 1.375)}, culled);
+  }
+  return scene;
+}
+
+std::size_t cell(int t) {
+  return static_cast<std::size_t>(2 * (t / kCells) * 2 * kCells + 2 * (t % kCells));
+}
+
+std::string about_lost(const std::vector<int>& lost, int all, const char* of) {
+  if (lost.empty()) return "";
+  const auto count = static_cast<int>(lost.size());
+  if (count == all) return "";
+  if (lost.back() == all - 1 && lost.back() - lost.front() == count - 1) {
+    if (count == 1) return std::string("the last triangle of ") + of + " is lost";
+    return "all triangles of " + std::string(of) + " after the first " + std::to_string(all - count) + " are lost";
+  }
+  if (lost.front() == 0 && lost.back() == count - 1) {
+    if (count == 1) return std::string("the first triangle of ") + of + " is lost";
+    return "the first " + std::to_string(count) + " triangles of " + of + " are lost";
+  }
+  if (count < 2) return "";
+  const int step = lost[1] - lost[0];
+  for (std::size_t i = 1; i < lost.size(); ++i) {
+    if (lost[i] - lost[i - 1] != step) return "";
+  }
+  if (lost.front() >= step + 1 || lost.back() + step < all) return "";
+  return "one of every " + std::to_string(step) + " triangles of " + of + " is lost: numbers " +
+         std::to_string(lost[0]) + ", " + std::to_string(lost[1]) + " and so on, counted from 0";
+}
+
+std::vector<int> lost_on(const Image& image) {
+  std::vector<int> lost;
+  for (int t = 0; t < kCells * kCells; ++t) {
+    if (!is_covered(image, cell(t))) lost.push_back(t);
+  }
+  return lost;
+}
+
+}  // namespace
+
+// --- a pattern of pixels
+
+namespace {
+
+// "the last column of a target", "one column of every 64: columns 63, 127 and so on"; empty if these are no such lines.
+std::string lines_text(const std::vector<int>& lines, int length, const std::string& name) {
+  const auto count = static_cast<int>(lines.size());
+  if (count == 1 && lines[0] == length - 1) return "the last " + name + " of a target";
+  if (count == 1 && lines[0] == 0) return "the first " + name + " of a target";
+  if (lines.back() - lines.front() == count - 1) {
+    if (lines.back() == length - 1) return name + "s of a target beyond the first " + std::to_string(length - count);
+    if (lines.front() == 0) return "the first " + std::to_string(count) + " " + name + "s of a target";
+  }
+  if (count < 2) return "";
+  const int step = lines[1] - lines[0];
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i] - lines[i - 1] != step) return "";
+  }
+  if (lines.front() > step || lines.back() + step < length) return "";
+  return "one " + name + " of every " + std::to_string(step) + " (" + name + "s " + std::to_string(lines[0]) + ", " +
+         std::to_string(lines[1]) + " and so on, counted from 0)";
+}
+
+}  // namespace
+
+std::string about_pattern(const Questions& questions) {
+  constexpr int kWidth = 200, kHeight = 150;
+  Scene scene = empty_scene(kWidth, kHeight);
+  add_triangle(scene.draws[0], over_all(kWidth, kHeight), questions.model.culled);
+  const auto image = questions.rival(scene);
+  if (!image || image->count.empty()) return "";
+  std::array<std::vector<int>, 2> wrong{std::vector<int>(kWidth, 0), std::vector<int>(kHeight, 0)};
+  int all = 0, more = 0;
+  std::array<int, 2> of_colour{};
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const std::uint32_t n = image->count[static_cast<std::size_t>(y * kWidth + x)];
+      if (n == 1) continue;
+      ++all, ++wrong[0][static_cast<std::size_t>(x)], ++wrong[1][static_cast<std::size_t>(y)];
+      ++of_colour[static_cast<std::size_t>((x + y) % 2)];
+      more += n > 1;
+    }
+  }
+  if (all == 0 || all == kWidth * kHeight || (more != 0 && more != all)) return "";
+  const std::string so = more == 0 ? " not drawn" : " drawn more than once";
+  std::array<std::vector<int>, 2> lines;
+  for (const std::size_t axis : {0u, 1u}) {
+    const int length = axis == 0 ? kHeight : kWidth;
+    for (std::size_t i = 0; i < wrong[axis].size(); ++i) {
+      if (wrong[axis][i] == length) lines[axis].push_back(static_cast<int>(i));
+    }
+  }
+  const auto columns = static_cast<int>(lines[0].size()), rows = static_cast<int>(lines[1].size());
+  if (all == columns * kHeight + rows * kWidth - columns * rows) {
+    const std::string x = columns > 0 ? lines_text(lines[0], kWidth, "column") : "",
+                      y = rows > 0 ? lines_text(lines[1], kHeight, "row") : "";
+    if ((columns > 0 && x.empty()) || (rows > 0 && y.empty())) return "";
+    const bool several = (columns > 0 && rows > 0) || (x + y).find("s of a target") != std::string::npos;
+    return x + (columns > 0 && rows > 0 ? " and " : "") + y + (several ? " are" : " is") + so;
+  }
+  if (all == kWidth * kHeight / 2 && (of_colour[0] == 0 || of_colour[1] == 0)) {
+    return "every second pixel is" + so + ", as the fields of a chess board";
+  }
+  return "";
+}
+
+std::string about_many(const Questions& questions) {
+  constexpr int kAll = kCells * kCells;
+  const auto one = questions.rival(board(1, questions.model.culled));
+  if (!one) return "";
+  const std::vector<int> lost = lost_on(*one);
+  if (std::string which = about_lost(lost, kAll, "a draw"); !which.empty()) {
+    const auto again = questions.rival(board(1, questions.model.culled));
+    if (again && lost_on(*again) != lost && lost.size() > 1) {
+      const std::vector<int> other = lost_on(*again);
+      if (other.size() > 1 && other[1] - other[0] == lost[1] - lost[0]) {
+        return "one of every " + std::to_string(lost[1] - lost[0]) +
+               " triangles is lost, counted on from frame to frame";
+      }
+      return "";
+    }
+    return which;
+  }
+  if (!lost.empty() && lost.size() < kAll) {
+    return text("of 4,096 small triangles side by side in one draw %.0f are lost, the first of them number %.0f",
+                static_cast<double>(lost.size()), lost.front());
+  }
+  if (!lost.empty()) return "";
+  const auto four = questions.rival(board(4, questions.model.culled));
+  if (!four) return "";
+  const std::vector<int> of_draws = lost_on(*four);
+  if (of_draws.empty() || of_draws.size() == kAll) return "";
+  std::array<std::vector<int>, 4> each;
+  for (const int t : of_draws) each[static_cast<std::size_t>(4 * t / kAll)].push_back(4 * t % kAll / 4);
+  std::string whole;
+  for (std::size_t d = 0; d < 4; ++d) whole += each[d].size() == kAll / 4 ? '0' : each[d].empty() ? '1' : '?';
+  if (whole == "0001") return "only the last draw of a frame is drawn";
+  if (whole == "1000") return "only the first draw of a frame is drawn";
+  if (whole == "0111") return "the first draw of a frame is lost";
+  if (whole == "1110") return "the last draw of a frame is lost";
+  return "with several draws in a frame triangles are lost, with one they are not";
+}
+
+// What is in the index of triangle t, where each has a pixel of its own.
+std::string about_index(const Questions& questions) {
+  constexpr int kAll = kCells * kCells;
+  const auto one = questions.rival(board(1, questions.model.culled));
+  if (!one || one->index.empty()) return "";
+  struct Form {
+    const char* text;
+    std::uint32_t (*of)(std::uint32_t t, std::uint32_t all, std::uint32_t draw);  // `draw`: of how many triangles
+  };
+  constexpr Form kForms[] = {
+      {"", [](std::uint32_t t, std::uint32_t, std::uint32_t) { return t; }},
+      {"every index is 1 too large: it counts from 1",
+       [](std::uint32_t t, std::uint32_t, std::uint32_t) { return t + 1; }},
+      {"every index is 1 too small", [](std::uint32_t t, std::uint32_t, std::uint32_t) { return t - 1; }},
+      {"indices count from the last triangle, not from the first",
+       [](std::uint32_t t, std::uint32_t all, std::uint32_t) { return all - 1 - t; }},
+      {"every index is 0", [](std::uint32_t, std::uint32_t, std::uint32_t) { return 0u; }},
+      {"the index is that of the triangle's first vertex, not the triangle's number",
+       [](std::uint32_t t, std::uint32_t, std::uint32_t) { return 3 * t; }},
+      {"indices have 8 bits: larger ones overflow",
+       [](std::uint32_t t, std::uint32_t, std::uint32_t) { return t & 0xFF; }},
+      {"indices stop at 255: they have 8 bits",
+       [](std::uint32_t t, std::uint32_t, std::uint32_t) { return std::min(t, 255u); }},
+      {"indices have 10 bits: larger ones overflow",
+       [](std::uint32_t t, std::uint32_t, std::uint32_t) { return t & 0x3FF; }},
+      {"every index is that of the last triangle of the draw",
+       [](std::uint32_t, std::uint32_t all, std::uint32_t) { return all - 1; }},
+      {"each draw counts its triangles from 0: the index does not go on from draw to draw",
+       [](std::uint32_t t, std::uint32_t, std::uint32_t draw) { return t % draw; }},
+      {"the index is the draw's number, not the triangle's",
+       [](std::uint32_t t, std::uint32_t, std::uint32_t draw) { return t / draw; }}};
+  const auto follows = [](const Image& image, const Form& form, int draws) {
+    for (int t = 0; t < kAll; ++t) {
+      if (image.index[cell(t)] !=
+          form.of(static_cast<std::uint32_t>(t), kAll, static_cast<std::uint32_t>(kAll / draws))) {
+        return false;
+      }
+    }
+    return true;
+  };
+  for (const Form& form : kForms) {
+    if (!follows(*one, form, 1)) continue;
+    if (form.text[0] != '\0') return form.text;
+    const auto four = questions.rival(board(4, questions.model.culled));
+    for (const Form& other : kForms) {
+      if (four && !four->index.empty() && follows(*four, other, 4)) return other.text;
+    }
+    return "";
+  }
+  return "";
+}
+
+// Many triangles, one on the other.
+std::string about_counts(const Questions& questions) {
+  std::vector<std::array<std::uint32_t, 2>> got;
+  for (const int n : {1,   2,   3,   4,   7,   8,   9,   15,  16,  17,  31,   32,   33,   63,   64,   65,
+                      127, 128, 129, 255, 256, 257, 300, 511, 512, 513, 1000, 1025, 2049, 4097, 66000}) {
+    Scene scene = empty_scene(8, 8);
+    for (int t = 0; t < n; ++t) {
+      add_triangle(scene.draws[0], {corner(1.125, 1.25), corner(6.5, 2.125), corner(2.25, 6.625)},
+                   questions.model.culled);
+    }
+    const auto image = questions.rival(scene);
+    if (!image || image->count.empty()) break;
+    got.push_back({static_cast<std::uint32_t>(n), image->count[3 * 8 + 3]});
+  }
+  if (got.size() < 8) return "";
+  const auto all = [&got](const auto& of) {
+    return std::all_of(got.begin(), got.end(), [&of](const auto& g) { return g[1] == of(g[0]); });
+  };
+  if (all([](std::uint32_t n) { return n; })) return "";
+  std::uint32_t most = 0;
+  for (const auto& g : got) most = std::max(most, g[1]);
+  if (all([most](std::uint32_t n) { return std::min(n, most); })) return "counts stop at " + std::to_string(most);
+  for (const std::uint32_t bits : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 10u, 12u, 16u}) {
+    if (all([bits](std::uint32_t n) { return n & ((1u << bits) - 1); })) {
+      return "counts overflow: they have " + std::to_string(bits) + " bits";
+    }
+  }
+  if (all([](std::uint32_t n) { return 2 * n; })) return "every count is twice what it should be";
+  if (all([](std::uint32_t n) { return n + 1; })) return "every count is 1 too large where anything is drawn";
+  if (all([](std::uint32_t n) { return n - 1; })) return "every count is 1 too small where anything is drawn";
+  const auto first = std::find_if(got.begin(), got.end(), [](const auto& g) { return g[0] != g[1]; });
+  return "of " + std::to_string((*first)[0]) + " triangles on each other " + std::to_string((*first)[1]) +
+         " are counted";
+}
+
+// A draw of so many vertices.
+std::string about_vertices(const Questions& questions) {
+  for (const int before : {300, 70000}) {
+    Scene scene = empty_scene(16, 16);
+    scene.draws[0].vertices.assign(static_cast<std::size_t>(before), corner(-8, -8));
+    add_triangle(scene.draws[0], {corner(1.125, 1.25), corner(14.5, 2.125), corner(2.25, 14.625)},
+                 questions.model.culled);
+    const auto shown = answer(questions, scene);
+    if (!shown) continue;
+    if (differs(*shown)) {
+      return before == 300 ? "vertex numbers beyond 255 are taken for others: they have 8 bits"
+                           : "vertex numbers beyond 65,535 are taken for others: they have 16 bits";
+    }
+  }
+  return "";
+}
+
+namespace {
+
+// --- sizes
+
+// Some triangles side by side all along a target of this length, and in its last columns.
+Scene strip(int length, bool upright, Cull culled) {
+  Scene scene = upright ? empty_scene(6, length) : empty_scene(length, 6);
+  const auto add = [&](double at, double size) {
+    const auto place = [&](double along, double across) {
+      return upright ? corner(across, at + along * size) : corner(at + along * size, across);
+    };
+    add_triangle(scene.draws[0], {place(0.125, 0.25), place(0.875, 0.375), place(0.5, 5.625)}, culled);
+  };
+  for (int at = 0; at + 8 <= length; at += 8) add(at, 8);
+  if (length % 8 != 0) add(std::max(0, length - 8), std::min(length, 8));
+  return scene;
+}
+
+}  // namespace
+
+std::string about_sizes(const Questions& questions) {
+  for (const bool upright : {false, true}) {
+    std::vector<int> wrong, right;
+    int first = 1 << 20;  // of the wrong ones, along the target
+    bool lacks = true, exact = true, last = true;
+    const auto note = [&](const Wrong& shown, int length) {
+      int begin = length;
+      for (std::size_t s = 0; s < shown.right.count.size(); ++s) {
+        if (shown.right.count[s] == shown.rival.count[s]) continue;
+        lacks = lacks && shown.rival.count[s] < shown.right.count[s];
+        begin = std::min(begin, static_cast<int>(upright ? s / 6 : s % static_cast<std::size_t>(length)));
+      }
+      exact = exact && (first == 1 << 20 || begin == first);
+      last = last && begin == length - 1;
+      first = std::min(first, begin);
+    };
+    for (const int length :
+         {3,   5,   7,   8,    9,    12,   15,   16,   17,   20,   24,   31,   32,   33,   40,   48,
+          63,  64,  65,  96,   100,  127,  128,  129,  160,  200,  255,  256,  257,  300,  511,  512,
+          513, 640, 800, 1000, 1024, 1025, 1280, 2047, 2048, 2049, 3000, 4096, 4097, 8192, 8200, 16384}) {
+      const auto shown = answer(questions, strip(length, upright, questions.model.culled));
+      if (!shown) continue;
+      (differs(*shown) ? wrong : right).push_back(length);
+      if (differs(*shown)) note(*shown, length);
+    }
+    if (wrong.empty() || right.size() < 3) continue;
+    const char *side = upright ? "high" : "wide", *lines = upright ? "row" : "column";
+    const auto all = [](const std::vector<int>& of, const auto& is) { return std::all_of(of.begin(), of.end(), is); };
+    if (last && lacks) {
+      for (const int m : {2, 4, 8, 16, 32, 64}) {
+        const auto odd = [m](int n) { return n % m != 0; };
+        if (all(wrong, odd) && std::none_of(right.begin(), right.end(), odd)) {
+          return "the last " + std::string(lines) + " is not drawn of targets whose " + (upright ? "height" : "width") +
+                 " is no multiple of " + std::to_string(m);
+        }
+      }
+    }
+    if (*std::max_element(right.begin(), right.end()) < *std::min_element(wrong.begin(), wrong.end())) {
+      const std::string from = std::to_string(*std::max_element(right.begin(), right.end()));
+      if (exact && lacks && first >= 8) {
+        return "nothing is drawn beyond the first " + std::to_string(first) + " " + lines + "s of a target";
+      }
+      return "targets more than " + from + " pixels " + side + " are wrong" + (lacks ? ": samples are not drawn" : "");
+    }
+    if (*std::max_element(wrong.begin(), wrong.end()) < *std::min_element(right.begin(), right.end())) {
+      return "targets under " + std::to_string(*std::min_element(right.begin(), right.end())) + " pixels " + side +
+             " are wrong" + (lacks ? ": samples are not drawn" : "");
+    }
+    for (const int m : {2, 4, 8, 16, 32, 64}) {
+      const auto odd = [m](int n) { return n % m != 0; };
+      if (all(wrong, odd) && std::none_of(right.begin(), right.end(), odd)) {
+        return std::string("targets whose ") + (upright ? "height" : "width") + " is no multiple of " +
+               std::to_string(m) + " are wrong";
+      }
+    }
+  }
+  return "";
+}
+
+// Triangles of which one vertex lies far beside the target.
+std::string about_far(const Questions& questions) {
+  struct Told {
+    double reach, edge;
+  };
+  std::vector<Told> wrong, right;
+  bool nothing = true;
+  for (int k = 5; k <= 20; ++k) {
+    for (int side = 0; side < 8; ++side) {
+      constexpr std::array<std::array<int, 2>, 8> kWays{
+          {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, 1}, {1, -1}, {-1, -1}}};
+      const double far = std::ldexp(1.0, k), dx = kWays[static_cast<std::size_t>(side)][0] * far,
+                   dy = kWays[static_cast<std::size_t>(side)][1] * far;
+      // The other two at both sides of the line there.
+      const double length = std::hypot(dx, dy), nx = -dy / length, ny = dx / length;
+      const auto at = [](double value) { return std::nearbyint(value * 8) / 8; };
+      Scene scene = empty_scene(16, 16);
+      add_triangle(
+          scene.draws[0],
+          {corner(at(8 + dx), at(8 + dy)), corner(at(8 + 7 * nx - 3 * dx / length), at(8 + 7 * ny - 3 * dy / length)),
+           corner(at(8 - 6 * nx - 2 * dx / length), at(8 - 6 * ny - 2 * dy / length))},
+          questions.model.culled);
+      const auto shown = answer(questions, scene);
+      if (!shown) continue;
+      double most = 0;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const SceneVertex &p = scene.draws[0].vertices[i], &q = scene.draws[0].vertices[(i + 1) % 3];
+        for (const auto& [x, y] : {std::pair{0.5, 0.5}, {15.5, 0.5}, {0.5, 15.5}, {15.5, 15.5}}) {
+          most = std::max(most, std::abs((double{q.x} - p.x) * (y - p.y) - (double{q.y} - p.y) * (x - p.x)));
+        }
+      }
+      const bool bad = shown->right.count != shown->rival.count;
+      (bad ? wrong : right).push_back({far, most});
+      if (bad)
+        nothing = nothing &&
+                  std::none_of(shown->rival.count.begin(), shown->rival.count.end(), [](auto n) { return n != 0; });
+    }
+  }
+  if (wrong.size() < 4 || right.size() < 4) return "";
+  double least_wrong = INFINITY, most_right = 0, least_edge = INFINITY, most_edge = 0;
+  for (const Told& t : wrong) least_wrong = std::min(least_wrong, t.reach), least_edge = std::min(least_edge, t.edge);
+  for (const Told& t : right) most_right = std::max(most_right, t.reach), most_edge = std::max(most_edge, t.edge);
+  std::string become = nothing ? "are not drawn" : "are wrong";
+  // An overflow is not wrong everywhere: what is far and right by chance is let be.
+  const auto far_and_right = static_cast<std::size_t>(
+      std::count_if(right.begin(), right.end(), [&](const Told& t) { return t.reach > least_wrong; }));
+  if (5 * far_and_right > wrong.size() + far_and_right && most_right > 2 * least_wrong) return "";
+  std::string why;
+  for (const int bits : {4, 8}) {
+    const double limit = std::ldexp(1.0, 31 - 2 * bits);
+    if (!nothing && least_edge >= limit / 2 && least_edge <= 4 * limit) {
+      why = ": numbers overflow, as edge functions of " + std::to_string(bits) + " subpixel bits do in 32 bits";
+    }
+  }
+  if (why.empty() && !nothing) why = ": numbers overflow, or are not precise enough";
+  return text("triangles with a vertex %.0f pixels and more away ", least_wrong) + become + why;
+}
+
+// Triangles that get smaller about a sample, in four shapes.
+std::string about_small(const Questions& questions) {
+  if (questions.model.least_area > 0) return "";  // that is of its model
+  constexpr std::array<double, 12> kSizes{6, 4, 3, 2, 1.5, 1, 0.75, 0.5, 0.375, 0.25, 0.1875, 0.125};
+  // All ways; in y; in x; across a slanted line.
+  std::array<double, 4> drawn{INFINITY, INFINITY, INFINITY, INFINITY}, lost{0, 0, 0, 0};
+  for (std::size_t shape = 0; shape < 4; ++shape) {
+    for (const double s : kSizes) {
+      Scene scene = empty_scene(16, 16);
+      const double c = 7.5;
+      Corners corners{};
+      const auto thin = [&](double ax, double ay, double bx, double by) {  // along a, across b
+        corners = {corner(c - 5 * ax - 0.45 * s * bx, c - 5 * ay - 0.45 * s * by),
+                   corner(c + 5 * ax - 0.45 * s * bx, c + 5 * ay - 0.45 * s * by),
+                   corner(c + 0.55 * s * bx, c + 0.55 * s * by)};
+      };
+      if (shape == 0)
+        corners = {corner(c - 0.45 * s, c - 0.4 * s), corner(c + 0.55 * s, c - 0.35 * s),
+                   corner(c - 0.2 * s, c + 0.6 * s)};
+      if (shape == 1) thin(1, 0, 0, 1);
+      if (shape == 2) thin(0, 1, 1, 0);
+      if (shape == 3) thin(0.75, 0.625, -0.64, 0.768);
+      add_triangle(scene.draws[0], corners, questions.model.culled);
+      const auto image = questions.rival(scene);
+      if (!image) continue;
+      if (is_covered(*image, 7 * 16 + 7)) {
+        drawn[shape] = std::min(drawn[shape], s);
+      } else {
+        lost[shape] = std::max(lost[shape], s);
+      }
+    }
+  }
+  // By shape: lost below, drawn from there on.
+  std::array<bool, 4> loses{};
+  for (std::size_t i = 0; i < 4; ++i) {
+    if (lost[i] > drawn[i] && drawn[i] < INFINITY) return "";  // no threshold
+    loses[i] = lost[i] > 0.2;
+  }
+  const auto about = [](double a, double b) { return a / b < 1.6 && b / a < 1.6; };
+  if (loses[0] && !loses[1] && !loses[2])
+    return text("triangles smaller than some %.3g pixels each way are not drawn", drawn[0]);
+  if (loses[1] && !loses[2]) return text("triangles less than some %.3g pixels high are not drawn", drawn[1]);
+  if (loses[2] && !loses[1]) return text("triangles less than some %.3g pixels wide are not drawn", drawn[2]);
+  if (loses[1] && loses[2]) {
+    // By area the long ones may be thinner.
+    const double area = 0.5 * drawn[0] * drawn[0], thin = 5 * drawn[1];
+    if (drawn[0] > 1.6 * drawn[1] && about(area, thin)) {
+      return text("triangles of less than some %.3g square pixels are not drawn", (area + thin) / 2);
+    }
+    return text("triangles thinner than some %.3g pixels are not drawn", drawn[1]);
+  }
+  return "";
+}
+
+// The same triangle with its corners in another order.
+std::string about_orders(const Questions& questions) {
+  Random random(0x02DE2);
+  constexpr std::array<std::array<std::size_t, 3>, 6> kOrders{
+      {{0, 1, 2}, {1, 2, 0}, {2, 0, 1}, {0, 2, 1}, {2, 1, 0}, {1, 0, 2}}};
+  std::array<int, 2> bad{};
+  int differ = 0, all = 0;
+  for (int n = 0; n < 10; ++n) {
+    const Corners c = plain_corners(random, 16, 16);
+    std::array<bool, 6> wrong{};
+    bool known = true;
+    for (std::size_t o = 0; o < 6; ++o) {
+      Scene scene = empty_scene(16, 16);
+      add_triangle(scene.draws[0], {c[kOrders[o][0]], c[kOrders[o][1]], c[kOrders[o][2]]});
+      const auto shown = answer(questions, scene);
+      known = known && shown;
+      if (shown) wrong[o] = shown->right.count != shown->rival.count;
+      if (wrong[o]) ++bad[o / 3];
+    }
+    if (!known) continue;
+    ++all;
+    differ += wrong[0] != wrong[1] || wrong[1] != wrong[2] || wrong[3] != wrong[4] || wrong[4] != wrong[5];
+  }
+  if (2 * differ > all && all > 3) return "what a triangle covers depends on which of its vertices comes first";
+  return "";
+}
+
+// How many vertices behind the eye it takes.
+std::string about_behind(const Questions& questions, std::span<const Fault> faults) {
+  Random random(0xBE41D);
+  std::array<std::vector<Wrong>, 2> wrong;
+  std::array<int, 2> all{}, nothing{}, lacks{}, more{};
+  for (int n = 0; n < 24; ++n) {
+    const int behind = 1 + n % 2;
+    Scene scene = empty_scene(16, 16);
+    Corners c = plain_corners(random, 16, 16);
+    for (int i = 0; i < behind; ++i) {
+      // Its image mirrored through infinity: far off, so that much of the target is covered.
+      SceneVertex& v = c[static_cast<std::size_t>((n / 2 + i) % 3)];
+      const double w = -0.5 - random.unit();
+      v = corner(eighth(random, -8, 24), eighth(random, -8, 24), 0.5, 1);
+      v.x = static_cast<float>(eighth(random, -24, 40)), v.y = static_cast<float>(eighth(random, -24, 40));
+      v.w = static_cast<float>(std::nearbyint(w * 16) / 16), v.z = v.w / 2;
+    }
+    for (SceneVertex& v : c) v.z = v.w / 2;
+    add_triangle(scene.draws[0], c);
+    const auto shown = answer(questions, scene);
+    if (!shown) continue;
+    std::uint64_t right = 0, rival = 0;
+    bool less = false, greater = false;
+    for (std::size_t s = 0; s < shown->right.count.size(); ++s) {
+      right += shown->right.count[s], rival += shown->rival.count[s];
+      less = less || shown->rival.count[s] < shown->right.count[s];
+      greater = greater || shown->rival.count[s] > shown->right.count[s];
+    }
+    if (right < 12) continue;
+    const auto k = static_cast<std::size_t>(behind - 1);
+    ++all[k];
+    if (!less && !greater) continue;
+    nothing[k] += rival == 0, lacks[k] += less && !greater, more[k] += greater && !less;
+    wrong[k].push_back(*shown);
+  }
+  const auto bad = [&](std::size_t k) { return all[k] >= 3 && 2 * static_cast<int>(wrong[k].size()) >= all[k]; };
+  if (!bad(0) && !bad(1)) return "";
+  std::vector<Wrong> both = wrong[0];
+  both.insert(both.end(), wrong[1].begin(), wrong[1].end());
+  const std::vector<Name> names = name_fault(faults, both, 0x1p-8);
+  if (!names.empty() && names.front().agreement >= 0.9) return names.front().fault->sentence;
+  const char* who = bad(0) && bad(1) ? "triangles with a vertex behind the eye (W <= 0) "
+                    : bad(0)         ? "triangles with one vertex behind the eye (W <= 0), not those with two, "
+                                     : "triangles with two vertices behind the eye (W <= 0), not those with one, ";
+  const auto each = [&](const std::array<int, 2>& n) {
+    return (!bad(0) || n[0] == static_cast<int>(wrong[0].size())) &&
+           (!bad(1) || n[1] == static_cast<int>(wrong[1].size()));
+  };
+  if (each(nothing)) return std::string(who) + "are not drawn";
+  if (each(lacks))
+    return std::string(who) + (bad(0) && !bad(1)
+                                   ? "lack a part: of the polygon of four corners that is left some is lost"
+                                   : "lack a part");
+  if (each(more)) return std::string(who) + "cover what they should not";
+  return std::string(who) + "are wrong";
+}
+
+// Not numbers.
+std::string about_not_numbers(const Questions& questions) {
+  int all = 0, drawn = 0, others = 0;
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    for (int which = 0; which < 4; ++which) {
+      Scene scene = empty_scene(16, 16);
+      Corners c{corner(1.125, 1.25), corner(6.5, 2.125), corner(2.25, 14.625)};
+      add_triangle(scene.draws[0], c, questions.model.culled);
+      Corners broken{corner(9.125, 1.25), corner(14.5, 2.125), corner(10.25, 14.625)};
+      (which == 0 ? broken[1].x : which == 1 ? broken[2].y : which == 2 ? broken[0].z : broken[1].w) = bad;
+      add_triangle(scene.draws[0], broken, questions.model.culled);
+      for (SceneVertex& v : c) v.x += 4;
+      add_triangle(scene.draws[0], c, questions.model.culled);
+      const auto image = questions.rival(scene);
+      const auto wanted = questions.right(scene);
+      if (!image || !wanted || image->count.empty()) continue;
+      ++all;
+      const std::size_t first = 4 * 16 + 2, last = 8 * 16 + 7;
+      const bool good = image->count[first] == wanted->count[first] && image->count[last] == wanted->count[last];
+      others += !good;
+      drawn += good && image->count != wanted->count;
+    }
+  }
+  if (all < 4) return "";
+  if (drawn > 0) return "a triangle with a NaN or an infinity is drawn: it should cover nothing";
+  if (others > 0) return "a triangle with a NaN or an infinity takes other triangles with it";
+  return "";
+}
+
+}  // namespace surefill::judge

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What asking says: of faults that are made here, and of rasterizers that are right, of which nothing may be said.
+#include "certify/judge/questions.hpp"
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "certify/judge/facts.hpp"
+#include "certify/rivals/frame.hpp"
+#include "certify/rivals/model.hpp"
+#include "certify/rivals/names.hpp"
+#include "mutation/zoo/right.hpp"
+#include "oracle/oracle.hpp"
+
+namespace surefill::judge {
+namespace {
+
+using corpus::Image;
+using corpus::Scene;
+using corpus::SceneDraw;
+
+Image right_image(const Scene& scene) {
+  corpus::Frame frame(scene, {});
+  oracle::render(frame.target(), frame.draws());
+  return std::move(frame.image());
+}
+
+struct Planted {
+  const char* says;
+  void (*before)(Scene& scene);
+  void (*after)(const Scene& scene, Image& image);
+};
+
+template <typename Change>
+void each_draw(Scene& scene, const Change& change) {
+  for (SceneDraw& draw : scene.draws) change(draw);
+}
+
+template <typename Change>
+void each_scissor(Scene& scene, const Change& change) {
+  each_draw(scene, [&](SceneDraw& draw) {
+    if (!draw.scissor) return;
+    change(*draw.scissor);
+    Scissor& r = *draw.scissor;
+    r.x0 = std::clamp(r.x0, 0, scene.width), r.x1 = std::clamp(r.x1, r.x0, scene.width);
+    r.y0 = std::clamp(r.y0, 0, scene.height), r.y1 = std::clamp(r.y1, r.y0, scene.height);
+  });
+}
+
+template <typename Of>
+void depths(Image& image, const Of& of) {
+  for (float& z : image.depth) z = std::isfinite(z) ? of(z) : z;
+}
+
+constexpr Planted kPlanted[] = {
+    {"the scissor's end is inclusive: a column and a row too many are drawn: [x0, x1) x [y0, y1) is taken for [x0, x1 "
+     "+ "
+     "1) x [y0, y1 + 1)",
+     [](Scene& s) { each_scissor(s, [](Scissor& r) { ++r.x1, ++r.y1; }); }, nullptr},
+    {"counted from the bottom row",
+     [](Scene& s) { each_scissor(s, [&s](Scissor& r) {
+                      r = {r.x0, s.height - r.y1, r.x1, s.height - r.y0};
+                    }); },
+     nullptr},
+    {"culling does nothing", [](Scene& s) { each_draw(s, [](SceneDraw& d) { d.cull = Cull::none; }); }, nullptr},
+    {"which facing is front is not looked at: clockwise is front",
+     [](Scene& s) { each_draw(s, [](SceneDraw& d) { d.front_face = FrontFace::clockwise; }); }, nullptr},
+    {"depth clipping does nothing",
+     [](Scene& s) {
+       each_draw(s,
+                 [](SceneDraw& d) { d.depth_mode = d.depth_mode == DepthMode::clip ? DepthMode::none : d.depth_mode; });
+     },
+     nullptr},
+    {"depth is 0.5 z +0.5", nullptr, [](const Scene&, Image& i) { depths(i, [](float z) { return (z + 1) / 2; }); }},
+    {"depth is 2 z -1", nullptr, [](const Scene&, Image& i) { depths(i, [](float z) { return 2 * z - 1; }); }},
+    {"depth is Z, and not divided by W",
+     [](Scene& s) {
+       each_draw(s, [](SceneDraw& d) {
+         for (corpus::SceneVertex& v : d.vertices) v.z *= v.w;
+       });
+     },
+     nullptr},
+    {"flat attributes are those of vertex 2, the last one",
+     [](Scene& s) {
+       if (s.attributes.empty() || s.attributes[0].interpolation != Interpolation::flat) return;
+       each_draw(s, [](SceneDraw& d) {
+         for (const corpus::SceneTriangle& t : d.triangles) {
+           d.vertices[t.vertices[0]].attributes = d.vertices[t.vertices[2]].attributes;
+         }
+       });
+     },
+     nullptr},
+    {"attributes are interpolated on the screen, without perspective",
+     [](Scene& s) {
+       for (corpus::SceneAttribute& a : s.attributes) {
+         if (a.interpolation == Interpolation::perspective) a.interpolation = Interpolation::noperspective;
+       }
+     },
+     nullptr},
+    {"components of attributes come in another order: 1, 0, 2", nullptr,
+     [](const Scene&, Image& i) {
+       for (std::vector<float>& values : i.attributes) {
+         for (std::size_t n = 0; n + 2 < values.size(); n += 3) std::swap(values[n], values[n + 1]);
+       }
+     }},
+    {"attributes are clamped to 0 to 1", nullptr,
+     [](const Scene&, Image& i) {
+       for (std::vector<float>& values : i.attributes) {
+         for (float& value : values) value = std::clamp(value, 0.0f, 1.0f);
+       }
+     }},
+    {"the last triangle drawn is seen",
+     [](Scene& s) {
+       if (s.draws.size() == 1 && s.draws[0].triangles.size() == 2)
+         s.draws[0].triangles.erase(s.draws[0].triangles.begin()), s.draws[0].first_index = 1;
+     },
+     nullptr},
+    {"one column of every 64 (columns 63, 127 and so on, counted from 0) is not drawn", nullptr,
+     [](const Scene&, Image& i) {
+       for (std::size_t s = 0; s < i.count.size(); ++s) {
+         if (s / static_cast<std::size_t>(i.samples) % static_cast<std::size_t>(i.width) % 64 == 63) i.count[s] = 0;
+       }
+     }},
+    {"sample places are upside down",
+     [](Scene& s) {
+       if (s.samples == 1) return;
+       for (int n = 0; n < s.samples; ++n) {
+         const SampleLocation at = sample_location(s.samples, n);
+         s.sample_locations.push_back({at.x, at.y == 0 ? 0 : 16 - at.y});
+       }
+     },
+     nullptr},
+    {"triangles smaller than some 1 pixels each way are not drawn",
+     [](Scene& s) {
+       each_draw(s, [](SceneDraw& d) {
+         std::erase_if(d.triangles, [&d](const corpus::SceneTriangle& t) {
+           const auto &a = d.vertices[t.vertices[0]], &b = d.vertices[t.vertices[1]], &c = d.vertices[t.vertices[2]];
+           if (a.w != 1 || b.w != 1 || c.w != 1) return false;
+           const auto [x0, x1] = std::minmax({a.x, b.x, c.x});
+           const auto [y0, y1] = std::minmax({a.y, b.y, c.y});
+           return x1 - x0 < 1 && y1 - y0 < 1;
+         });
+       });
+     },
+     nullptr},
+};
+
+TEST(Questions, SayWhatIsPlanted) {
+  for (const Planted& planted : kPlanted) {
+    const auto drawn = [&planted](const Scene& scene) -> std::optional<Image> {
+      Scene changed = scene;
+      if (planted.before) planted.before(changed);
+      Image image = right_image(changed);
+      if (planted.after) planted.after(scene, image);
+      return image;
+    };
+    const Questions questions{drawn, [](const Scene& scene) { return std::optional(right_image(scene)); }, {}, true};
+    const std::vector<std::string> sentences = ask(questions, {}).sentences;
+    ASSERT_FALSE(sentences.empty()) << planted.says;
+    EXPECT_NE(sentences.front().find(planted.says), std::string::npos) << planted.says << ": " << sentences.front();
+  }
+}
+
+// Triangles that are lost by their number, counts and indices of few bits.
+TEST(Questions, CountTriangles) {
+  struct Case {
+    const char* says;
+    void (*draw)(const Scene& scene, Image& image);
+  };
+  constexpr Case kCases[] = {{"one of every 1000 triangles of a draw is lost: numbers 999, 1999",
+                              [](const Scene& s, Image& i) {
+                                for (std::size_t t = 999; t < s.draws[0].triangles.size() && i.width == 128; t += 1000)
+                                  i.count[2 * (t / 64) * 128 + 2 * (t % 64)] = 0;
+                              }},
+                             {"counts stop at 255",
+                              [](const Scene&, Image& i) {
+                                for (std::uint32_t& n : i.count) n = std::min(n, 255u);
+                              }},
+                             {"every index is 1 too large",
+                              [](const Scene&, Image& i) {
+                                for (std::uint32_t& n : i.index) n += n != kNoTriangle;
+                              }},
+                             {"nothing is drawn beyond the first 2048 columns", [](const Scene&, Image& i) {
+                                for (std::size_t s = 0; s < i.count.size(); ++s) {
+                                  if (s % static_cast<std::size_t>(i.width) >= 2048) i.count[s] = 0;
+                                }
+                              }}};
+  for (const Case& one : kCases) {
+    const auto drawn = [&one](const Scene& scene) -> std::optional<Image> {
+      Image image = right_image(scene);
+      one.draw(scene, image);
+      return image;
+    };
+    const Questions questions{drawn, [](const Scene& scene) { return std::optional(right_image(scene)); }, {}, false};
+    std::string said = about_many(questions);
+    if (said.empty()) said = about_counts(questions);
+    if (said.empty()) said = about_index(questions);
+    if (said.empty()) said = about_sizes(questions);
+    EXPECT_NE(said.find(one.says), std::string::npos) << one.says << ": " << said;
+  }
+}
+
+// Of the right ones nothing is said.
+TEST(Questions, SayNothingOfRightRasterizers) {
+  for (const zoo::Choices& choices : zoo::right_rasterizers()) {
+    const auto drawn = [&choices](const Scene& scene) -> std::optional<Image> {
+      corpus::Frame frame(scene, {true, true, true, false, false});
+      for (const Draw& draw : frame.draws()) {
+        if (draw.cull != Cull::none || draw.scissor || draw.depth_mode != DepthMode::none || !draw.depth_write)
+          return std::nullopt;
+        for (const Vertex& v : draw.vertices) {
+          if (!(v.w > 0)) return std::nullopt;
+        }
+      }
+      if (scene.samples > 1 || scene.draws.size() > 1 || scene.depth_test != DepthTest::less ||
+          !scene.initial_depth.empty())
+        return std::nullopt;
+      const adapters::AdapterFrame adapted(frame.target(), frame.draws());
+      if (!zoo::draw_right(choices, adapted.scene(), adapted.image())) return std::nullopt;
+      return std::move(frame.image());
+    };
+    class Drawn : public Rival {
+     public:
+      explicit Drawn(const std::function<std::optional<Image>(const Scene&)>& draw) : draw_(draw) {}
+      corpus::Outputs outputs() const override { return {true, true, true, false, false}; }
+      double position_step() const override { return 0; }
+      Image draw(const Scene& scene, const corpus::Outputs&) override {
+        std::optional<Image> image = draw_(scene);
+        if (!image) throw Declined("not such a scene");
+        return std::move(*image);
+      }
+
+     private:
+      std::function<std::optional<Image>(const Scene&)> draw_;
+    };
+    Drawn rival(drawn);
+    const Inference found = infer(rival, adapters::oracle_expected(), std::nullopt);
+    ASSERT_TRUE(found.known) << zoo::right_text(choices);
+    const Questions questions{
+        drawn, [&found](const Scene& scene) { return std::optional(right_image(certify::moved(scene, found.model))); },
+        found.model, true};
+    const Answers answers = ask(questions, {});
+    EXPECT_TRUE(answers.sentences.empty()) << zoo::right_text(choices) << ": " << answers.sentences.front();
+    EXPECT_TRUE(answers.wrong.empty()) << zoo::right_text(choices);
+  }
+}
+
+}  // namespace
+}  // namespace surefill::judge

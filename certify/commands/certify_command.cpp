@@ -119,6 +119,7 @@ void add_rival_facts(const adapters::Rival& rival, const RivalSubject& subject, 
       facts.departures.push_back(sentence);
     }
   }
+  facts.departures.insert(facts.departures.begin(), subject.conventions.begin(), subject.conventions.end());
   if (!found.shape.empty() && found.known) facts.departures.insert(facts.departures.begin(), found.shape);
   facts.open = found.open;
   facts.turns = judge::turns_text(found.turns);

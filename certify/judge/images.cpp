@@ -145,8 +145,10 @@ class Look {
   Judgement run(const Counts& counts, const Looks& looks) {
     const std::size_t total = counts.least.size();
     result_.differs.assign(total, 0);
+    result_.unknown.assign(total, 0);
     for (std::size_t s = 0; s < total; ++s) {
       const bool known = counts.least[s] == counts.most[s];
+      result_.unknown[s] = known ? 0 : 1;
       ++(known ? result_.samples : result_.open);
       if (looks.counts && !image_.count.empty()) {
         const std::uint32_t got = image_.count[s];

@@ -79,6 +79,7 @@ struct Judgement {
   std::string finding;                // the first difference, in words; empty if there is none
   std::size_t sample = 0;             // where it is
   std::vector<std::uint8_t> differs;  // of each sample
+  std::vector<std::uint8_t> unknown;  // 1 where the count is open
 };
 
 struct Looks {

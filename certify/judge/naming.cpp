@@ -55,6 +55,7 @@ std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wron
       std::uint64_t either = 0, alike = 0;
       const std::size_t total = shown.rival.count.size();
       for (std::size_t s = 0; s < total; ++s) {
+        if (!shown.open.empty() && shown.open[s]) continue;
         const bool rival = !same_sample(shown.rival, shown.right, s, within);
         const bool theirs = !same_sample(frame.image(), shown.right, s, within);
         if (!rival && !theirs) continue;

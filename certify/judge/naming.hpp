@@ -25,6 +25,7 @@ struct Fault {
 struct Wrong {
   corpus::Scene scene;
   corpus::Image right, rival;
+  std::vector<std::uint8_t> open = {};  // 1 at samples of which nothing is said: they are set right; or empty
 };
 
 // How well a fault explains what is wrong: of all samples that it or the rival draws wrongly, those that both draw alike.

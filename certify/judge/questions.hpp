@@ -31,13 +31,16 @@ struct Questions {
 // are about the right ones, are set right.
 std::optional<Wrong> answer(const Questions& questions, const corpus::Scene& scene);
 
+// The scene as a rasterizer has it whose samples are at the centre: what its model moves is moved here.
+corpus::Scene moved(corpus::Scene scene, const judge::Model& model);
+
 bool differs(const Wrong& shown);
 
 // What the answers say.
 struct Answers {
   std::vector<std::string> sentences;  // the most telling first
   // Plain triangles that are wrong and right: a few large ones in front of the eye. Where half of them and more are wrong
-  // nothing else was asked.
+  // nothing else was asked; nor is anything of a model that moves positions by more than 1/16 pixel.
   std::vector<Wrong> wrong;
   std::vector<corpus::Scene> fine;
 };
@@ -48,6 +51,7 @@ Answers ask(const Questions& questions, std::span<const Fault> faults);
 
 inline bool alike(float a, float b) {
   if (a == b || (a != a && b != b)) return true;
+  if (!std::isfinite(a) || !std::isfinite(b)) return false;
   const double size = std::max({1.0, std::abs(double{a}), std::abs(double{b})});
   return std::abs(double{a} - b) <= 0x1p-9 * size;
 }
@@ -57,6 +61,7 @@ std::string how_values_come(const Questions& questions);
 
 // Each empty where all is right, or nothing is said.
 std::string about_pattern(const Questions& questions);
+std::string about_boxes(const Questions& questions);
 std::string about_many(const Questions& questions);
 std::string about_index(const Questions& questions);
 std::string about_counts(const Questions& questions);
@@ -71,6 +76,7 @@ std::string about_scissor(const Questions& questions);
 std::string about_culling(const Questions& questions);
 std::string about_depth_modes(const Questions& questions);
 std::string about_samples(const Questions& questions);
+std::string about_nothing_seen(const Questions& questions);
 std::string about_visibility(const Questions& questions);
 
 // A vertex that comes to lie at (x, y), of depth z.

@@ -370,6 +370,7 @@ std::string about_depth_modes(const Questions& questions) {
 }
 
 std::string about_samples(const Questions& questions) {
+  if (questions.model.x.place != 0.5 || questions.model.y.place != 0.5) return "";
   for (const int samples : {2, 4, 8, 16}) {
     const auto n = static_cast<std::size_t>(samples);
     // How far to the right and down each sample of the pixel (1, 1) lies, in sixteenths.
@@ -460,6 +461,12 @@ std::optional<std::uint32_t> seen(const Questions& questions, DepthTest test, st
 
 }  // namespace
 
+std::string about_nothing_seen(const Questions& questions) {
+  const auto half = seen(questions, DepthTest::less, {0.5}, false);
+  if (half != kNoTriangle) return "";
+  return "with the depth test LESS nothing is seen: it is taken for GREATER, or depth is cleared for GREATER";
+}
+
 std::string about_visibility(const Questions& questions) {
   const auto who = [&](DepthTest test, double a, double b) { return seen(questions, test, {a, b}, false); };
   const auto near_first = who(DepthTest::less, 0.25, 0.75), far_first = who(DepthTest::less, 0.75, 0.25);
@@ -478,19 +485,19 @@ std::string about_visibility(const Questions& questions) {
       return "each draw is drawn over those before it, whatever its depth: depth is forgotten between draws";
     return "with several draws another triangle is seen than in one draw of all";
   }
-  // The nearest of two that differ by less and less.
-  for (int k = 2; k <= 23; ++k) {
+  // The nearest of two that differ by less and less, as far as a buffer of its bits can tell.
+  const int finest = questions.model.format == oracle::DepthFormat::unorm16 ? 14 : 20;
+  for (int k = 2; k <= finest; ++k) {
     const double step = std::ldexp(1.0, -k);
     const auto close = who(DepthTest::less, 0.5 + step, 0.5);
     if (!close || *close == 1) continue;
-    if (k > 20) break;
     return text("depths are compared with too few bits: of two that are 2^-%d apart the farther one is seen", k);
   }
   const auto greater_near = who(DepthTest::greater, 0.25, 0.75), greater_far = who(DepthTest::greater, 0.75, 0.25);
   if (greater_near && greater_far && (*greater_near != 1 || *greater_far != 0)) {
     if (*greater_near == 0 && *greater_far == 1) return "the depth test GREATER is taken for LESS";
     if (*greater_near == kNoTriangle && *greater_far == kNoTriangle)
-      return "with the depth test GREATER nothing is seen: what depth is cleared to is for LESS";
+      return "with the depth test GREATER nothing is seen: it is taken for LESS, or depth is cleared for LESS";
     return "the depth test GREATER does not show the farthest";
   }
   const auto hidden = seen(questions, DepthTest::less, {0.5}, false, 0.25f),

@@ -265,7 +265,32 @@ std::string said(const char* what, const std::string& way, const char* otherwise
 
 // --- depth
 
+// Depths of a whole triangle, as they come: in which steps?
+std::string depth_steps(const Questions& questions) {
+  std::vector<std::array<double, 2>> seen;
+  for (int n = 0; n < 40; ++n) {
+    const double z = 0.03 + 0.94 * std::fmod(n * 0.6180339887498949, 1.0);
+    Scene scene = empty_scene(8, 8);
+    add_triangle(scene.draws[0], {corner(1.125, 1.25, z), corner(6.5, 2.125, z), corner(2.25, 6.625, z)},
+                 questions.model.culled);
+    const auto image = questions.rival(scene);
+    if (!image || image->depth.empty()) return "";
+    seen.push_back({static_cast<double>(static_cast<float>(z)), image->depth[3 * 8 + 3]});
+  }
+  for (const int bits : {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}) {
+    for (const double steps : {std::ldexp(1.0, bits) - 1, std::ldexp(1.0, bits)}) {
+      bool good = true;
+      for (const auto& [z, got] : seen) {
+        good = good && std::abs(got - z) <= 1.001 / steps && std::abs(got * steps - std::nearbyint(got * steps)) < 1e-3;
+      }
+      if (good) return "depth comes in steps of " + std::to_string(bits) + " bits";
+    }
+  }
+  return "";
+}
+
 std::string about_depth(const Questions& questions) {
+  if (std::string steps = depth_steps(questions); !steps.empty()) return steps;
   const auto depths = [&](bool perspective) {
     return seen_of(questions, shown_of(questions, Interpolation::perspective, perspective, false),
                    [](const Wrong& shown, const auto& v, std::size_t s, Seen& one) {

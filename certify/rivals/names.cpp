@@ -57,8 +57,22 @@ void set_right(const RivalSubject& subject, const corpus::Frame& frame, judge::W
     const std::size_t n = from.size() / total;
     std::copy_n(from.begin() + static_cast<std::ptrdiff_t>(n * s), n, to.begin() + static_cast<std::ptrdiff_t>(n * s));
   };
+  const auto copy_alike = [total](const std::vector<float>& from, std::vector<float>& to, std::size_t s) {
+    if (from.empty() || from.size() != to.size()) return;
+    const std::size_t n = from.size() / total;
+    for (std::size_t i = n * s; i < n * (s + 1); ++i) to[i] = judge::alike(from[i], to[i]) ? from[i] : to[i];
+  };
+  shown.open.assign(total, 0);
   for (std::size_t s = 0; s < total; ++s) {
-    if (judgement.differs[s]) continue;
+    if (judgement.differs[s]) {
+      copy_alike(shown.right.depth, shown.rival.depth, s);
+      copy_alike(shown.right.barycentrics, shown.rival.barycentrics, s);
+      for (std::size_t k = 0; k < std::min(shown.right.attributes.size(), shown.rival.attributes.size()); ++k) {
+        copy_alike(shown.right.attributes[k], shown.rival.attributes[k], s);
+      }
+      continue;
+    }
+    shown.open[s] = judgement.unknown[s];
     copy(shown.right.count, shown.rival.count, s);
     copy(shown.right.index, shown.rival.index, s);
     copy(shown.right.depth, shown.rival.depth, s);
@@ -109,7 +123,7 @@ judge::Questions questions_of(const RivalSubject& subject) {
     }
   };
   questions.right = [&subject, model = questions.model](const Scene& scene) -> std::optional<corpus::Image> {
-    const Scene under = adapters::scene_under_model(moved(scene, model), subject.rival->info());
+    const Scene under = adapters::scene_under_model(judge::moved(scene, model), subject.rival->info());
     corpus::Frame frame(under, outputs_with(*subject.rival, scene));
     if (validate(frame.target(), frame.draws()) != Status::ok) return std::nullopt;
     oracle::render(frame.target(), frame.draws());
@@ -119,19 +133,6 @@ judge::Questions questions_of(const RivalSubject& subject) {
 }
 
 }  // namespace
-
-Scene moved(Scene scene, const judge::Model& model) {
-  for (corpus::SceneDraw& draw : scene.draws) {
-    for (corpus::SceneVertex& v : draw.vertices) {
-      const double x = v.x * (scene.width - model.x.lacks) / scene.width + (model.x.moved + 0.5 - model.x.place) * v.w;
-      const double y =
-          v.y * (scene.height - model.y.lacks) / scene.height + (model.y.moved + 0.5 - model.y.place) * v.w;
-      v.x = static_cast<float>(x);
-      v.y = static_cast<float>(y);
-    }
-  }
-  return scene;
-}
 
 std::vector<judge::Wrong> wrong_scenes(const RivalSubject& subject, std::span<const Scene> found, std::size_t most,
                                        std::vector<Scene>& fine) {
@@ -204,10 +205,19 @@ std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<co
               },
               [&subject](const Scene& scene) { return both(subject, scene); }, within_of(subject)};
   }
-  std::vector<std::string> sentences = answers.sentences;
+  std::vector<std::string> sentences = subject.conventions;
+  sentences.insert(sentences.end(), answers.sentences.begin(), answers.sentences.end());
   if (!wrong.empty()) {
-    const std::vector<judge::Name> names = judge::name_fault(known_faults(), wrong, trials.within);
-    for (const std::string& sentence : sentences_of(names, wrong, fine, trials)) sentences.push_back(sentence);
+    std::vector<judge::Name> names = judge::name_fault(known_faults(), wrong, trials.within);
+    // Where the answers say what it is, a fault that draws some of it says less.
+    if (!answers.sentences.empty()) {
+      std::erase_if(names, [](const judge::Name& name) { return name.agreement < 0.9; });
+      for (const judge::Name& name : names) {
+        if (name.agreement == names.front().agreement) sentences.push_back(name_text(name));
+      }
+    } else {
+      for (const std::string& sentence : sentences_of(names, wrong, fine, trials)) sentences.push_back(sentence);
+    }
   }
   if (sentences.size() > kMost) sentences.resize(kMost);
   return sentences;

@@ -28,9 +28,6 @@ std::vector<judge::Wrong> wrong_scenes(const RivalSubject& subject, std::span<co
 std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::span<const judge::Wrong> wrong,
                                       std::span<const corpus::Scene> fine, const judge::Trials& trials);
 
-// The scene as a rasterizer has it whose samples are at the centre: what its model moves is moved here.
-corpus::Scene moved(corpus::Scene scene, const judge::Model& model);
-
 // Of a rival: what asking it says (judge::ask), then the same of scenes on which it is wrong. Where no model is known, plain
 // triangles are these scenes.
 std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const corpus::Scene> found);

@@ -9,6 +9,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "certify/rivals/model.hpp"
 #include "certify/rivals/rival.hpp"
@@ -24,10 +25,11 @@ struct RivalSubject {
   adapters::Inference inference;
   judge::Terms terms;
   bool strict = false;
-  bool declared = false;            // it says what its model is
-  std::uint32_t reported_bits = 0;  // of subpixel precision, where it declares no model; 0: none
-  bool slow = false;                // a program over pipes: fewer cases
-  std::string replay_option;        // how `surefill replay` is told of it
+  bool declared = false;                 // it says what its model is
+  std::uint32_t reported_bits = 0;       // of subpixel precision, where it declares no model; 0: none
+  std::vector<std::string> conventions;  // that it says, and that are found to be others: sentences
+  bool slow = false;                     // a program over pipes: fewer cases
+  std::string replay_option;             // how `surefill replay` is told of it
   // The features that judged cases needed, so far.
   std::shared_ptr<std::atomic<std::uint32_t>> challenged = std::make_shared<std::atomic<std::uint32_t>>(0);
 };

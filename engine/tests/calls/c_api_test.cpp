@@ -339,15 +339,16 @@ TEST(C, HasTheSameEnumerators) {
   EXPECT_EQ(static_cast<int>(FillRule::northwards_west), SUREFILL_NORTHWARDS_WEST);
   // A status is the same number, and the same sentence; each C++ one that the C interface can return has a name there.
   std::set<std::string> texts;
-  for (std::uint32_t s = 0; s <= SUREFILL_DRAW_WIDTH; ++s) {
+  for (std::uint32_t s = 0; s <= SUREFILL_OCCLUDER_VERTICES; ++s) {
     const std::string text = status_text(static_cast<Status>(s));
     EXPECT_EQ(text, surefill_status_text(static_cast<surefill_status>(s)));
     EXPECT_NE(text, "unknown status");
     EXPECT_TRUE(texts.insert(text).second) << text;
   }
-  EXPECT_STREQ(status_text(static_cast<Status>(SUREFILL_DRAW_WIDTH + 1)), "unknown status");
+  EXPECT_STREQ(status_text(static_cast<Status>(SUREFILL_OCCLUDER_VERTICES + 1)), "unknown status");
   EXPECT_EQ(static_cast<int>(Status::target_overlap), SUREFILL_TARGET_OVERLAP);
   EXPECT_EQ(static_cast<int>(Status::draw_first_index), SUREFILL_DRAW_FIRST_INDEX);
+  EXPECT_EQ(static_cast<int>(Status::occluder_vertices), SUREFILL_OCCLUDER_VERTICES);
   EXPECT_EQ(static_cast<int>(Status::options_path), SUREFILL_OPTIONS_PATH);
   EXPECT_EQ(static_cast<int>(Status::to_pixel_vertices), SUREFILL_TO_PIXEL_VERTICES);
 }

@@ -269,16 +269,12 @@ std::optional<Wrong> answer(const Questions& questions, const Scene& scene) {
   Wrong shown{scene, std::move(*right), std::move(*rival)};
   const auto samples = static_cast<std::size_t>(scene.samples), width = static_cast<std::size_t>(scene.width);
   shown.open.assign(shown.right.count.size(), 0);
-  // Of frames of many triangles only what differs is looked at.
-  std::size_t triangles = 0;
-  for (const SceneDraw& draw : scene.draws) triangles += draw.triangles.size();
-  const bool few = triangles <= 64;
   for (std::size_t s = 0; s < shown.right.count.size(); ++s) {
     const SampleLocation at = sample_location(scene.samples, static_cast<int>(s % samples));
     const double x = static_cast<double>(s / samples % width) + at.x / 16.0 - 0.5 + questions.model.x.place,
                  y = static_cast<double>(s / samples / width) + at.y / 16.0 - 0.5 + questions.model.y.place;
     const bool same = shown.right.count[s] == shown.rival.count[s];
-    const bool near = (!same || few) && near_an_edge(scene, x, y);
+    const bool near = near_an_edge(scene, x, y);
     shown.open[s] = near ? 1 : 0;
     copy_sample(shown.right, shown.rival, s, !same && near);
   }

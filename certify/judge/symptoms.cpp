@@ -508,12 +508,16 @@ void add_needs(std::span<const Wrong> wrong, const std::function<bool(const Scen
   }
 }
 
-// Only this output is wrong.
+// Only this output is wrong, of several.
 void add_outputs(std::span<const Wrong> wrong, std::vector<std::string>& sentences) {
   std::array<std::size_t, 5> scenes{};
+  std::array<bool, 5> given{};
   constexpr std::array<const char*, 5> kNames{"counts", "indices", "depths", "barycentrics", "attributes"};
   for (const Wrong& shown : wrong) {
     const auto &a = shown.right, &b = shown.rival;
+    given[0] |= !b.count.empty(), given[1] |= !b.index.empty(), given[2] |= !b.depth.empty();
+    given[3] |= !b.barycentrics.empty();
+    for (const std::vector<float>& attribute : b.attributes) given[4] |= !attribute.empty();
     scenes[0] += a.count != b.count;
     scenes[1] += !b.index.empty() && a.index != b.index;
     scenes[2] += !b.depth.empty() && !same_floats(a.depth, b.depth);
@@ -524,6 +528,7 @@ void add_outputs(std::span<const Wrong> wrong, std::vector<std::string>& sentenc
       break;
     }
   }
+  if (std::count(given.begin(), given.end(), true) < 2) return;
   for (std::size_t i = 0; i < scenes.size(); ++i) {
     bool alone = most(scenes[i], wrong.size());
     for (std::size_t k = 0; k < scenes.size(); ++k) alone = alone && (k == i || scenes[k] == 0);

@@ -56,6 +56,24 @@ TEST(Zoo, BlatantSpecimensDieEarly) {
   }
 }
 
+// Their faults are of three indices a primitive: to read a line so would read past its list.
+TEST(Zoo, SpecimensOfTrianglesDrawLinesAndPointsRight) {
+  const Property& property = *property_named("equality-lines");
+  const std::size_t of_triangles = zoo::specimens().size() - zoo::line_specimens().size();
+  std::size_t drawn = 0;
+  for (std::uint64_t n = 0; n < 12; ++n) {
+    const corpus::Scene scene = sampled_case(property, n);
+    const auto is_of_lines = [](const corpus::SceneDraw& draw) { return draw.primitive != Primitive::triangles; };
+    if (std::none_of(scene.draws.begin(), scene.draws.end(), is_of_lines)) continue;
+    for (const zoo::Specimen& specimen : zoo::specimens().first(of_triangles)) {
+      const TrialResult verdict = property.decide(scene, specimen.render);
+      EXPECT_EQ(verdict.differences, 0u) << specimen.name << ", case " << n << ": " << verdict.finding;
+    }
+    ++drawn;
+  }
+  EXPECT_GE(drawn, 8u);
+}
+
 // The first number of `finding` after `word`; none where no number stands there.
 std::optional<long> number_after(const std::string& finding, const std::string& word) {
   const std::size_t at = finding.find(word);

@@ -400,7 +400,8 @@ constexpr Specimen kSpecimens[] = {
 }  // namespace
 
 std::span<const Specimen> coverage_specimens() {
-  return kSpecimens;
+  static constexpr auto kGuarded = of_triangles<kSpecimens>();
+  return kGuarded;
 }
 
 }  // namespace surefill::zoo

@@ -269,7 +269,8 @@ constexpr Specimen kSpecimens[] = {
 }  // namespace
 
 std::span<const Specimen> frame_specimens() {
-  return kSpecimens;
+  static constexpr auto kGuarded = of_triangles<kSpecimens>();
+  return kGuarded;
 }
 
 }  // namespace surefill::zoo

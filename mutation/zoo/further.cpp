@@ -268,7 +268,8 @@ constexpr FurtherFault kFaults[] = {
 }  // namespace
 
 std::span<const FurtherFault> further_faults() {
-  return kFaults;
+  static constexpr auto kGuarded = of_triangles<kFaults>();
+  return kGuarded;
 }
 
 }  // namespace surefill::zoo

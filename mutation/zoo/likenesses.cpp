@@ -544,7 +544,8 @@ constexpr Specimen kLikenesses[] = {
 }  // namespace
 
 std::span<const Specimen> likenesses() {
-  return kLikenesses;
+  static constexpr auto kGuarded = of_triangles<kLikenesses>();
+  return kGuarded;
 }
 
 }  // namespace surefill::zoo

@@ -292,7 +292,8 @@ constexpr Specimen kSpecimens[] = {
 }  // namespace
 
 std::span<const Specimen> mode_specimens() {
-  return kSpecimens;
+  static constexpr auto kGuarded = of_triangles<kSpecimens>();
+  return kGuarded;
 }
 
 }  // namespace surefill::zoo

@@ -200,7 +200,8 @@ constexpr Specimen kSpecimens[] = {
 }  // namespace
 
 std::span<const Specimen> output_specimens() {
-  return kSpecimens;
+  static constexpr auto kGuarded = of_triangles<kSpecimens>();
+  return kGuarded;
 }
 
 }  // namespace surefill::zoo

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <initializer_list>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mutation/zoo/zoo.hpp"
@@ -24,6 +25,24 @@ inline Status right(const Target& target, Draws draws) {
   const Status status = validate(target, draws);
   if (status == Status::ok) oracle::render(target, draws);
   return status;
+}
+
+// kList, whose faults are in how triangles are drawn: a frame with a draw of anything else, which has other numbers of
+// indices a primitive, each draws without its fault.
+template <const auto& kList>
+constexpr auto of_triangles() {
+  auto guarded = std::to_array(kList);
+  [&]<std::size_t... I>(std::index_sequence<I...>) {
+    ((guarded[I].render =
+          [](const Target& target, Draws draws) {
+            const bool triangles = std::all_of(draws.begin(), draws.end(),
+                                               [](const Draw& draw) { return draw.primitive == Primitive::triangles; });
+            return triangles ? kList[I].render(target, draws) : right(target, draws);
+          }),
+     ...);
+  }
+  (std::make_index_sequence<std::size(kList)>());
+  return guarded;
 }
 
 using Corners = std::array<Vertex, 3>;

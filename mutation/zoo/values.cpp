@@ -207,7 +207,8 @@ constexpr Specimen kSpecimens[] = {
 }  // namespace
 
 std::span<const Specimen> value_specimens() {
-  return kSpecimens;
+  static constexpr auto kGuarded = of_triangles<kSpecimens>();
+  return kGuarded;
 }
 
 }  // namespace surefill::zoo

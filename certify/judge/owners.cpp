@@ -150,9 +150,9 @@ void infer_small(Rival& rival, Inference& result) {
   Model& model = result.model;
   // In a line, which runs through the sample or past it.
   for (const auto& direction : {std::array<int, 2>{1, 1}, {1, 0}, {0, 1}, {2, 1}, {1, -2}}) {
-    const auto [dx, dy] = direction;
+    const int dx = direction[0], dy = direction[1];
     for (const double aside : {0.0, 0.25}) {
-      const auto at = [&, dx = dx, dy = dy](double along) {
+      const auto at = [&](double along) {
         return std::array<double, 2>{along * dx + aside * (dy == 0 ? 0 : 1), along * dy + aside * (dy == 0 ? 1 : 0)};
       };
       model.draws_flat = model.draws_flat || covers_any(rival, model, {at(-1), at(1), at(0.5)}) ||

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kUnclear = 1.0 / 16;  // R9
 constexpr long double kThin = 0x1p-20L;
+constexpr float kMostDepth = 0x1p8f;  // between vertices
 
 struct Box {
   Interval x, y;
@@ -131,7 +132,9 @@ int sign_of_d(const std::array<Vertex, 3>& t) {
 // What R7 to R10 make of a triangle before any sample is looked at.
 struct Placed {
   enum class Kind { boxes, clipped, open, nothing } kind = Kind::boxes;
-  std::array<Box, 3> boxes;  // of `boxes`, positive; of `open`
+  std::array<Box, 3> boxes;  // of `boxes`, positive; of `open`; of `clipped` that is `near`
+  bool near = false;         // all boxes are known
+  bool whole = true;         // of `clipped`: its inside is drawn
   bool front = true;
   bool culled = false;  // of `clipped`, where it is clear
 };
@@ -140,15 +143,21 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
   Placed placed;
   const int d = sign_of_d(t);
   placed.front = d > 0;
-  const auto drawn = [&](const Vertex& v) { return v.w > 0 && v.w >= model.least_w && v.w <= model.most_w; };
+  const bool in_range = std::all_of(t.begin(), t.end(), [&](const Vertex& v) { return in_range_of_w(model, v); });
   bool near = std::all_of(t.begin(), t.end(), [](const Vertex& v) { return v.w > 0; });
   for (std::size_t i = 0; i < 3 && near; ++i) {
     near = place_vertex(model.x, width, t[i].x, t[i].w, placed.boxes[i].x) &&
            place_vertex(model.y, height, t[i].y, t[i].w, placed.boxes[i].y);
   }
   const bool culled = model.culled != Cull::none && (model.culled == Cull::front) == placed.front;
-  if (!near) {
+  placed.near = near;
+  const bool in_band = std::all_of(placed.boxes.begin(), placed.boxes.end(), [&](const Box& b) {
+    return in_band_of(model, b.x, width) && in_band_of(model, b.y, height);
+  });
+  if (!near || !in_range || !in_band ||
+      std::any_of(t.begin(), t.end(), [&model](const Vertex& v) { return cut_by_depth(model, v); })) {
     placed.kind = Placed::Kind::clipped, placed.culled = culled;
+    placed.whole = in_range && model.least_area == 0;
     return placed;
   }
   const Signs area = signs_of_area(placed.boxes);
@@ -164,8 +173,6 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
     placed.kind = Placed::Kind::open;
   } else if (kept && culled) {
     placed.kind = Placed::Kind::nothing;
-  } else if (!std::all_of(t.begin(), t.end(), drawn)) {
-    placed.kind = Placed::Kind::open;
   } else if (kept) {
     const double size =
         std::abs(edge_function(placed.boxes[0].x.near_low, placed.boxes[0].y.near_low, placed.boxes[1].x.near_low,
@@ -221,8 +228,8 @@ Cover answer_at(const Model& model, const Placed& placed, const Sample& sample, 
 // R9: near its edges all is open.
 class ClippedTriangle {
  public:
-  ClippedTriangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t, bool culled)
-      : edges_(t), culled_(culled) {
+  ClippedTriangle(const Model& model, int width, int height, const std::array<Vertex, 3>& t, const Placed& placed)
+      : edges_(t), culled_(placed.culled), whole_(placed.whole) {
     const auto step = [](const AxisModel& axis) {
       return axis.place_within + 2 * std::max(axis.blur, axis.divided_blur) +
              (axis.bits < 0 ? 0 : std::ldexp(1.0, -axis.bits));
@@ -235,11 +242,12 @@ class ClippedTriangle {
       moved_[axis] = m.moved;
     }
     sign_ = sign_of_d(t);
-    thin_ = std::abs(edges_.d) <= kThin * edges_.d_magnitude;
+    const auto [least, most] = std::minmax({t[0].w, t[1].w, t[2].w});
+    unsure_ = std::abs(edges_.d) <= kThin * edges_.d_magnitude || (placed.near && most > kMostDepth * least);
   }
 
   Cover at(double sx, double sy) const {
-    if (thin_) return Cover::open;
+    if (unsure_) return Cover::open;
     bool inside = true;
     for (std::size_t i = 0; i < 3; ++i) {
       bool positive = true, negative = true;
@@ -253,16 +261,17 @@ class ClippedTriangle {
       if (negative) return Cover::no;
       inside = inside && positive;
     }
-    return !inside ? Cover::open : culled_ ? Cover::no : Cover::yes;
+    return !inside || !(culled_ || whole_) ? Cover::open : culled_ ? Cover::no : Cover::yes;
   }
+  double distance() const { return distance_; }
 
  private:
   Edges edges_;
-  bool culled_;
+  bool culled_, whole_;
   std::array<double, 2> stretch_{}, moved_{};
   double distance_ = 0;
   int sign_ = 0;
-  bool thin_ = false;
+  bool unsure_ = false;
 };
 
 struct Corner {
@@ -327,22 +336,23 @@ std::vector<Cover> cover(const Model& model, int width, int height, int samples,
   if (!all_finite(triangle)) return answers;
   const Placed placed = place_triangle(model, width, height, triangle);
   if (placed.kind == Placed::Kind::nothing) return answers;
-  // Only what lies in the box around all positions is looked at; of a clipped triangle, everything.
+  std::optional<ClippedTriangle> clipped;
+  if (placed.kind == Placed::Kind::clipped) clipped.emplace(model, width, height, triangle, placed);
+  // Only what lies in the box around all positions is looked at; of a triangle that has none, everything.
   double x0 = 0, y0 = 0, x1 = width, y1 = height, size = std::max(width, height);
-  if (placed.kind != Placed::Kind::clipped) {
+  if (placed.kind != Placed::Kind::clipped || placed.near) {
     x0 = y0 = INFINITY, x1 = y1 = -INFINITY;
     for (const Box& box : placed.boxes) {
       x0 = std::min(x0, box.x.near_low), x1 = std::max(x1, box.x.near_high);
       y0 = std::min(y0, box.y.near_low), y1 = std::max(y1, box.y.near_high);
     }
     size = std::max({size, std::abs(x0), std::abs(x1), std::abs(y0), std::abs(y1)}) + 2;
-    x0 -= 2, y0 -= 2, x1 += 2, y1 += 2;
+    const double more = 2 + (clipped ? clipped->distance() : 0);
+    x0 -= more, y0 -= more, x1 += more, y1 += more;
   }
   const auto pixel = [](double at, int length) {
     return static_cast<int>(std::floor(std::clamp(at, 0.0, static_cast<double>(length))));
   };
-  std::optional<ClippedTriangle> clipped;
-  if (placed.kind == Placed::Kind::clipped) clipped.emplace(model, width, height, triangle, placed.culled);
   const std::vector<Corner> hull = placed.kind == Placed::Kind::open ? hull_of(placed.boxes) : std::vector<Corner>();
   const double certain = certain_above(size);
   for (int y = pixel(y0, height); y < pixel(y1 + 1, height); ++y) {

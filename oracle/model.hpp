@@ -128,8 +128,9 @@ struct Model {
   double least_area = 0;    // twice the area in pixels: R8
   bool draws_flat = false;  // triangles in a line are drawn somehow: R8
   double least_w = 0, most_w = std::numeric_limits<double>::infinity();
-  Cull culled = Cull::none;                      // always: R10
-  std::optional<std::array<double, 2>> clipped;  // to this depth, always: R10
+  double band = std::numeric_limits<double>::infinity();  // pixels beyond the target, on an axis: R9
+  Cull culled = Cull::none;                               // always: R10
+  std::optional<std::array<double, 2>> clipped;  // to this depth, always: R10; and what is beyond may be cut: R9
   // Depth: R11, R12.
   DepthFormat format = DepthFormat::float32;
   bool minus_one_to_one = false;
@@ -157,7 +158,8 @@ inline std::optional<FillRule> watertight_rule(const Model& model) {
 enum class Cover : std::uint8_t { no, yes, open };
 
 // The answer for each sample of a target of this size, sample n of pixel (x, y) being element (y width + x) samples + n.
-// A triangle with a NaN or an infinity covers nothing (B1). Depth has no part: `clipped` is the caller's.
+// A triangle with a NaN or an infinity covers nothing (B1). Depth says whether the triangle may be cut (R9); what `clipped`
+// takes away is the caller's to say.
 std::vector<Cover> cover(const Model& model, int width, int height, int samples, const std::array<Vertex, 3>& triangle);
 
 // The same for a line, thin if it has no width, and for a point (R17 to R21), with one sample a pixel.

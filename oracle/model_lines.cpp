@@ -302,9 +302,10 @@ class LineAnswers {
     bool placed = true;
     for (std::size_t i = 0; i < 2; ++i) {
       const Vertex& v = ends[i];
-      placed = placed && v.w > 0 && v.w >= model.least_w && v.w <= model.most_w &&
+      placed = placed && v.w > 0 && in_range_of_w(model, v) && !cut_by_depth(model, v) &&
                place_vertex(model.x, width, v.x, v.w, ends_[i][0], model.lines.blur) &&
-               place_vertex(model.y, height, v.y, v.w, ends_[i][1], model.lines.blur);
+               place_vertex(model.y, height, v.y, v.w, ends_[i][1], model.lines.blur) &&
+               in_band_of(model, ends_[i][0], width) && in_band_of(model, ends_[i][1], height);
     }
     if (!placed || shape_ == LineShape::unknown) {
       near_.emplace(model, width, height, ends[0], ends[1], widths_.high / 2);

@@ -82,6 +82,17 @@ bool snapped_exactly(double position, const AxisModel& axis, double& result) {
 
 }  // namespace
 
+bool cut_by_depth(const Model& model, const Vertex& vertex) {
+  if (!model.clipped) return false;
+  constexpr double kRoundings = 64 * 0x1p-24;
+  const double z = vertex.z, w = vertex.w;
+  const auto inside = [&](double limit, double sign) {
+    if (!std::isfinite(limit)) return limit * sign < 0;
+    return z == limit * w || sign * (z - limit * w) > kRoundings * std::max(std::abs(z), std::abs(limit * w));
+  };
+  return !inside((*model.clipped)[0], 1) || !inside((*model.clipped)[1], -1);
+}
+
 bool place_vertex(const AxisModel& axis, int length, float numerator, float w, Interval& result, double more) {
   int exponent = 0;
   const bool divided = std::frexp(w, &exponent) != 0.5f;

@@ -26,6 +26,16 @@ struct Interval {
 // False beyond 2^14 pixels. `more` is added to the axis's blur.
 bool place_vertex(const AxisModel& axis, int length, float numerator, float w, Interval& result, double more = 0);
 
+// R9. Beyond these a vertex may be left out, with what it is of; what is behind the eye is clipped if there is no least W.
+inline bool in_range_of_w(const Model& model, const Vertex& vertex) {
+  return (model.least_w == 0 || vertex.w >= model.least_w) && vertex.w <= model.most_w;
+}
+inline bool in_band_of(const Model& model, const Interval& position, int length) {
+  return position.near_low >= -model.band && position.near_high <= length + model.band;
+}
+// May what has this vertex, of W > 0, be cut by depth?
+bool cut_by_depth(const Model& model, const Vertex& vertex);
+
 Rational floor_of(const Rational& value);
 
 inline Rational end_of(const Interval& interval, unsigned which) {

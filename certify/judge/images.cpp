@@ -466,6 +466,10 @@ Model model_of_draw(const Terms& terms, const Frame& frame, const Draw& draw) {
       axis->grid_offset = std::ldexp(offset, -draw.grid->bits - 4);
     }
   }
+  if (draw.depth_mode == DepthMode::clip) {
+    const std::array<double, 2> always = model.clipped.value_or(std::array{0.0, 1.0});
+    model.clipped = {std::max(always[0], 0.0), std::min(always[1], 1.0)};
+  }
   double farthest = std::max(frame.width, frame.height);
   for (const Vertex& v : draw.vertices) {
     if (!finite(v) || !(v.w > 0)) continue;
@@ -507,7 +511,6 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
           : draw.primitive == Primitive::lines
               ? expected.cover_line(model, frame.width, frame.height, {v[0], v[1]}, draw.width)
               : expected.cover_point(model, frame.width, frame.height, v[0], draw.width.value_or(1));
-      const bool clips = draw.depth_mode == DepthMode::clip || model.clipped;
       for (std::size_t s = 0; s < total; ++s) {
         Cover cover = covers[s];
         if (cover == Cover::no) continue;
@@ -516,12 +519,9 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
                              at.pixel_y < draw.scissor->y0 || at.pixel_y >= draw.scissor->y1)) {
           continue;
         }
-        if (clips) {
+        if (model.clipped) {
           const Range depth = depth_range(model, frame, shape, at, nullptr);
-          if (draw.depth_mode == DepthMode::clip) cover = clipped(cover, depth, 0, 1);
-          if (model.clipped && cover != Cover::no) {
-            cover = clipped(cover, depth, (*model.clipped)[0], (*model.clipped)[1]);
-          }
+          cover = clipped(cover, depth, (*model.clipped)[0], (*model.clipped)[1]);
         }
         if (cover == Cover::no) continue;
         ++counts.most[s];

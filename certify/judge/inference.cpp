@@ -299,6 +299,53 @@ void draw_trials(Rival& rival, Inference& result, std::vector<Probe>& probes) {
   }
 }
 
+// A triangle with an edge through a sample, or past it by a hair, to a vertex so far beyond the target.
+corpus::Scene reaching_scene(Random& random, const Model& model, double given, int distance, int number) {
+  constexpr int kSize = 16;
+  const Along x{model.x, kSize}, y{model.y, kSize};
+  const auto step = [](const AxisModel& axis) { return axis.bits < 0 ? 1.0 / 64 : std::ldexp(1.0, -axis.bits); };
+  const double sx = random.between(4, 11) + model.x.place, sy = random.between(4, 11) + model.y.place;
+  double dx = random.between(1, 60) * step(model.x), dy = random.between(1, 60) * step(model.y);
+  if (random.below(2) == 0) dx = -dx;
+  if (random.below(2) == 0) dy = -dy;
+  const double reach = std::max(std::abs(dx), std::abs(dy)), before = std::max(1.0, std::floor(2 / reach)),
+               behind = std::ceil((distance + kSize) / reach);
+  // A step aside where it ends.
+  const double aside_x = std::abs(dx) < std::abs(dy) ? (number % 3 - 1) * step(model.x) : 0,
+               aside_y = std::abs(dx) < std::abs(dy) ? 0 : (number % 3 - 1) * step(model.y);
+  const auto point = [&](double px, double py) { return Point{x.source(px, given), y.source(py, given)}; };
+  const FlatTriangle triangle{point(sx - before * dx, sy - before * dy),
+                              point(sx + behind * dx + aside_x, sy + behind * dy + aside_y),
+                              point(random.between(0, kSize), random.between(0, kSize))};
+  return flat_scene(kSize, kSize, {seen(triangle, model.culled)});
+}
+
+// From which distance beyond the target on does it cut triangles (R9)? Where it does, the new vertex is moved to the grid, and
+// the edge passes the sample on either side; of edges some times as long as the part that is left one in a few shows it.
+void infer_band(Rival& rival, const Expected& expected, Inference& result) {
+  constexpr int kFarthest = 1 << 13, kEdges = 24, kTimes = 8;
+  Random random(0xBA4D);
+  std::vector<Probe> probes;
+  std::optional<double> band;
+  try {
+    for (int distance = 2; distance <= kFarthest && !band; distance *= 2) {
+      for (int n = 0; n < kEdges; ++n) {
+        const corpus::Scene scene = reaching_scene(random, result.model, rival.position_step(), distance, n);
+        probes.push_back({scene, rival.draw(scene, covering(rival))});
+        if (wrong_samples(expected, result.model, probes.back()) > 0) band = distance / (2 * kTimes);
+      }
+    }
+  } catch (const Declined&) {
+    // What it does not take says nothing of it.
+  }
+  if (!band) return;
+  Model model = result.model;
+  model.band = *band;
+  const bool explains = std::all_of(probes.begin(), probes.end(),
+                                    [&](const Probe& probe) { return wrong_samples(expected, model, probe) == 0; });
+  if (explains) result.model = model;
+}
+
 // Blur until every probe agrees. Where edges go wrong by up to E pixels, a trial within E of its sample is answered
 // wrongly once in four times, on the mean; none of thirty that are between E / 8 and E is, with a chance of 2 in 10,000: so
 // what explains the trials is multiplied by 8.
@@ -393,19 +440,25 @@ void give_up(const Expected& expected, const std::vector<Probe>& probes, const s
   }
 }
 
-}  // namespace
+// A rival that takes no vertex beside the target.
+class OnTarget : public Rival {
+ public:
+  explicit OnTarget(Rival& rival) : rival_(rival) {}
+  corpus::Outputs outputs() const override { return rival_.outputs(); }
+  double position_step() const override { return rival_.position_step(); }
+  corpus::Image draw(const corpus::Scene& scene, const corpus::Outputs& wanted) override {
+    for (const corpus::SceneVertex& v : scene.draws[0].vertices) {
+      const auto within = [&v](float at, int length) { return at >= 0 && at <= static_cast<float>(length) * v.w; };
+      if (!within(v.x, scene.width) || !within(v.y, scene.height)) throw Declined("a vertex beside the target");
+    }
+    return rival_.draw(scene, wanted);
+  }
 
-Model least_known_model() {
-  Model model;
-  model.x.blur = model.y.blur = 1 + 3 * kMostBlur;  // of the place, of t, and r
-  model.front.open = model.back.open = 0xFF;
-  model.vertices = oracle::AtVertices::open;
-  model.lines.thin = model.lines.wide = oracle::LineShape::unknown;
-  model.points.known = false;
-  return model;
-}
+ private:
+  Rival& rival_;
+};
 
-Inference infer(Rival& rival, const Expected& expected, const std::optional<Model>& declared) {
+Inference infer_as_drawn(Rival& rival, const Expected& expected, const std::optional<Model>& declared) {
   Inference result;
   result.model = least_known_model();
   infer_facts(rival, result);
@@ -477,11 +530,38 @@ Inference infer(Rival& rival, const Expected& expected, const std::optional<Mode
   } catch (const Declined& reason) {
     result.open.push_back(std::string("how small a triangle it draws: ") + reason.what());
   }
+  if (result.offscreen) infer_band(rival, expected, result);
   draw_trials(rival, result, probes);
   settle(expected, probes, result);
   if (!result.known) result.shape = tried_shape(rival, result);
   if (!result.known) give_up(expected, probes, "what was found does not explain other triangles", x, y, result);
   return result;
+}
+
+}  // namespace
+
+Model least_known_model() {
+  Model model;
+  model.x.blur = model.y.blur = 1 + 3 * kMostBlur;  // of the place, of t, and r
+  model.front.open = model.back.open = 0xFF;
+  model.vertices = oracle::AtVertices::open;
+  model.lines.thin = model.lines.wide = oracle::LineShape::unknown;
+  model.points.known = false;
+  return model;
+}
+
+Inference infer(Rival& rival, const Expected& expected, const std::optional<Model>& declared) {
+  Inference result = infer_as_drawn(rival, expected, declared);
+  const bool plain = result.known && result.problems.empty() && result.model.x.blur == 0 && result.model.y.blur == 0;
+  if (plain || !result.offscreen) return result;
+  // What cuts triangles near the target shows other edges than those that are asked for, wherever a vertex lies beside it.
+  OnTarget on_target(rival);
+  Inference inner = infer_as_drawn(on_target, expected, declared);
+  if (!inner.known || !inner.problems.empty()) return result;
+  infer_band(rival, expected, inner);
+  if (!std::isfinite(inner.model.band)) return result;
+  inner.offscreen = true;
+  return inner;
 }
 
 }  // namespace surefill::judge

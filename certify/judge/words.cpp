@@ -185,6 +185,11 @@ std::vector<std::string> departures(const Model& model) {
     sentences.push_back(text("it leaves out triangles smaller than some %.2g square pixels", model.least_area));
   if (model.draws_flat)
     sentences.emplace_back("triangles without area are drawn, as the lines that they are or otherwise");
+  if (std::isfinite(model.band)) {
+    sentences.push_back(
+        text("it cuts triangles that reach further than %g pixels beyond the target, and rounds the new vertices",
+             model.band));
+  }
   if (model.least_w > 0) sentences.push_back(text("it draws nothing of W below %g", model.least_w));
   if (std::isfinite(model.most_w)) sentences.push_back(text("it draws nothing of W above %g", model.most_w));
   if (std::isfinite(model.clear))

@@ -272,6 +272,7 @@ judge::Terms terms_of(const surefill_adapter_info& info, const std::optional<jud
   if (stated && (!found.known || (judge::differences(*stated, found.model).empty() &&
                                   judge::line_differences(*stated, found.model, drawn).empty()))) {
     terms.model = *stated;
+    terms.model.band = found.model.band;  // no state says it
     terms.known = true;
   }
   terms.draws_own_rule = (info.features & SUREFILL_ADAPTER_FILL_RULES) != 0;

@@ -308,7 +308,10 @@ bool still_tiles(const Scene& scene, const RivalSubject& subject) {
                                     (axis->bits < 0 ? 0 : std::ldexp(1.0, -axis->bits)));
     }
     for (const corpus::SceneTriangle& triangle : scene.draws[d].triangles) {
-      const std::array<Vertex, 3> t = properties::triangle_of(scene.draws[d], triangle);
+      std::array<Vertex, 3> t = properties::triangle_of(scene.draws[d], triangle);
+      if (scene.draws[d].depth_mode != DepthMode::clip) {
+        for (Vertex& v : t) v.z = v.w / 2;  // as JudgedFrames has it
+      }
       if (adapters::oracle_expected().may_turn(model, scene.width, scene.height, t)) return false;
       for (std::size_t i = 0; i < 3; ++i) {
         const corpus::SceneVertex &p = scene.draws[d].vertices[triangle.vertices[i]],

@@ -38,6 +38,7 @@ class Right : public Rival {
  public:
   explicit Right(const Choices& choices, bool onscreen_only = false)
       : choices_(choices), onscreen_only_(onscreen_only) {}
+  const Choices& choices() const { return choices_; }
   corpus::Outputs outputs() const override { return {true, true, true, false, false}; }
   double position_step() const override { return 0; }
   corpus::Image draw(const corpus::Scene& scene, const corpus::Outputs& wanted) override {
@@ -73,7 +74,13 @@ std::uint64_t judged_samples(Right& rival, const Inference& found, const std::st
     corpus::Scene scene = properties::random_scene(categories[n % categories.size()], n, limits);
     for (corpus::SceneDraw& draw : scene.draws) {
       draw.viewport.reset();
-      for (corpus::SceneVertex& v : draw.vertices) v.z = std::clamp(v.z, 0.0f, std::max(v.w, 0.0f));
+      // Who clips depth gets what has to be clipped.
+      const int clip = rival.choices()[zoo::kClip];
+      if (clip == 3) draw.depth_mode = DepthMode::clip;
+      for (corpus::SceneVertex& v : draw.vertices) {
+        const float w = std::max(v.w, 0.0f);
+        v.z = std::clamp(v.z, clip == 0 ? 0 : -w, clip == 0 ? w : 2 * w);
+      }
     }
     corpus::Frame frame(scene, rival.outputs());
     const Frame seen{scene.width, scene.height, scene.samples, scene.depth_test, false, frame.draws()};
@@ -116,6 +123,10 @@ TEST(Judge, RightBehaviourIsFoundAndNotAccused) {
       {"A9, cleared to 1", with({{kClear, 1}}), false, "depth is cleared to 1"},
       {"A10, LEQUAL", with({{kTest, 1}}), false, "of equal depths the later one comes"},
       {"A11, clips always", with({{kClip, 1}}), false, "it always clips depth to 0 to 1"},
+      {"cuts at near and far", with({{kClip, 2}, {kBits, 2}}), false, "it always clips depth to 0 to 1"},
+      {"cuts where it is asked to", with({{kClip, 3}, {kBits, 2}}), false, "grid of 4 bits"},
+      {"cuts near the target", with({{kBorder, 1}, {kBits, 2}}), false, "it cuts triangles that reach further than"},
+      {"cuts far from it", with({{kBorder, 2}}), false, "it cuts triangles that reach further than"},
       {"A12, a near plane", with({{kNear, 1}}), false, "it draws nothing of W below 0.015625"},
       {"A14, turned ones left out", with({{kSlivers, 1}, {kBits, 2}}), false, "grid of 4 bits"},
       {"A14, small ones left out", with({{kSlivers, 2}}), false, "it leaves out triangles smaller than"},

@@ -72,6 +72,7 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
     if (name != zoo::right_name(n)) continue;
     instance.right = &zoo::right_rasterizers()[n];
     info->features = SUREFILL_ADAPTER_NOPERSPECTIVE | SUREFILL_ADAPTER_FLAT;
+    if (zoo::clips_where_asked(*instance.right)) info->features |= SUREFILL_ADAPTER_DEPTH_CLIP;
     info->model = {};
     info->model.profile = SUREFILL_ADAPTER_PROFILE_OPENGL;
   }

@@ -94,7 +94,7 @@ constexpr double kFarthest = 1 << 14;
 
 // A position on one axis, in pixels. In integers without a grid it is one of 16 bits.
 template <typename Number>
-double projected(const Choices& choices, int axis, float numerator, float w, int length) {
+double projected(const Choices& choices, int axis, double numerator, double w, int length) {
   Number q = static_cast<Number>(numerator) / static_cast<Number>(w);
   if (choices[kViewport] == 1) q = q * static_cast<Number>(length - 1) / static_cast<Number>(length);
   if (choices[kViewport] == 2) q += Number(1) / 4;
@@ -106,9 +106,58 @@ double projected(const Choices& choices, int axis, float numerator, float w, int
   return static_cast<double>(rounded(q * scale, choices[kRounding]) / scale);
 }
 
-double position(const Choices& choices, int axis, float numerator, float w, int length) {
+double position(const Choices& choices, int axis, double numerator, double w, int length) {
   return choices[kCode] == 1 ? projected<float>(choices, axis, numerator, w, length)
                              : projected<double>(choices, axis, numerator, w, length);
+}
+
+// --- cutting
+
+// Pixel-homogeneous, W > 0.
+struct Vertex {
+  double x, y, z, w;
+  int edge;  // the triangle's edge that goes on from here, or kCutEdge
+};
+constexpr int kCutEdge = 3;
+
+// The part of the polygon where `inside` is not negative. New vertices are rounded as the code base has it.
+template <typename Number, typename Inside>
+std::vector<Vertex> cut(const std::vector<Vertex>& polygon, const Inside& inside) {
+  std::vector<Vertex> part;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Vertex &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const auto da = static_cast<Number>(inside(a)), db = static_cast<Number>(inside(b));
+    if (da >= 0) part.push_back(a);
+    if ((da < 0) == (db < 0)) continue;
+    // From the one that is inside: the other one may be larger by far.
+    const Vertex &from = da >= 0 ? a : b, &to = da >= 0 ? b : a;
+    const Number t = (da >= 0 ? da : db) / std::abs(da - db);
+    const auto between = [t](double p, double q) {
+      return static_cast<double>(static_cast<Number>(p) + t * (static_cast<Number>(q) - static_cast<Number>(p)));
+    };
+    part.push_back({between(from.x, to.x), between(from.y, to.y), between(from.z, to.z), between(from.w, to.w),
+                    da >= 0 ? kCutEdge : a.edge});
+  }
+  return part;
+}
+
+template <typename Number>
+std::vector<Vertex> cut_polygon(const Choices& choices, const std::array<Vertex, 3>& triangle, int width, int height,
+                                bool depth) {
+  std::vector<Vertex> polygon(triangle.begin(), triangle.end());
+  const auto keep = [&polygon](const auto& inside) { polygon = cut<Number>(polygon, inside); };
+  if (depth) {
+    keep([](const Vertex& v) { return v.z; });
+    keep([](const Vertex& v) { return v.w - v.z; });
+  }
+  if (choices[kBorder] == 0) return polygon;
+  // With a viewport of another size, only far away: the border then is at another place, too.
+  const double beyond = choices[kBorder] == 1 && choices[kViewport] != 1 ? 1 : 40;
+  keep([=](const Vertex& v) { return v.x + beyond * v.w; });
+  keep([=](const Vertex& v) { return (width + beyond) * v.w - v.x; });
+  keep([=](const Vertex& v) { return v.y + beyond * v.w; });
+  keep([=](const Vertex& v) { return (height + beyond) * v.w - v.y; });
+  return polygon;
 }
 
 // --- edges
@@ -136,6 +185,21 @@ int side_of(const Choices& choices, const Corner& p, const Corner& q, const Corn
   return turn ? -sign : sign;
 }
 
+// Which way the polygon turns, and how much.
+int turn_of(const Choices& choices, const std::vector<Corner>& c, double& twice_area) {
+  if (c.size() == 3) {
+    twice_area = std::abs((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x));
+    return side_of(choices, c[0], c[1], c[2]);
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) {
+    const Corner &p = c[i], &q = c[(i + 1) % c.size()];
+    sum += (p.x - c[0].x) * (q.y - c[0].y) - (p.y - c[0].y) * (q.x - c[0].x);
+  }
+  twice_area = std::abs(sum);
+  return sum > 0 ? 1 : sum < 0 ? -1 : 0;
+}
+
 // Does the edge from p to q, the inside to its right, own the samples on it?
 bool owns(const Choices& choices, const Corner& p, const Corner& q, bool front, int edge) {
   const double dx = q.x - p.x, dy = q.y - p.y;
@@ -158,6 +222,25 @@ bool owns(const Choices& choices, const Corner& p, const Corner& q, bool front, 
     default:
       return edge == 0;
   }
+}
+
+// Does the polygon, the inside to the right of its edges, cover the sample? It is a fan of triangles; what lies between two
+// of them is inside. Those that snapping has turned over are left out.
+bool covers(const Choices& choices, const std::vector<Corner>& c, const std::vector<int>& edges, bool front,
+            const Corner& s) {
+  for (std::size_t n = 1; n + 1 < c.size(); ++n) {
+    const std::array<std::size_t, 3> corner{0, n, n + 1};
+    if (side_of(choices, c[0], c[n], c[n + 1]) <= 0) continue;
+    bool inside = true;
+    for (std::size_t i = 0; i < 3 && inside; ++i) {
+      const std::size_t from = corner[i], to = corner[(i + 1) % 3];
+      const int side = side_of(choices, c[from], c[to], s);
+      const bool between = to != (from + 1) % c.size();
+      inside = side > 0 || (side == 0 && (between || owns(choices, c[from], c[to], front, edges[from])));
+    }
+    if (inside) return true;
+  }
+  return false;
 }
 
 double stored(const Choices& choices, double z) {
@@ -246,11 +329,13 @@ std::string right_text(const Choices& c) {
          word(kOwners, {"top-left", "bottom-right", "southwards", "closed", "open", "both own level edges", "by facing",
                         "by order"}) +
          word(kBlur, {"", ", blurred"}) + word(kViewport, {"", ", viewport a pixel less", ", moved by 1/4"}) +
-         ", depth " + word(kFormat, {"float32", "double", "24 bits", "16 bits"}) + word(kClip, {"", ", clipped"}) +
+         ", depth " + word(kFormat, {"float32", "double", "24 bits", "16 bits"}) +
+         word(kClip, {"", ", clipped", ", clipped by cutting", ", cut where asked"}) +
          word(kRange, {"", ", from -1 to 1"}) + word(kClear, {"", ", cleared to 1"}) +
          word(kTest, {", less", ", lequal"}) + word(kNear, {"", ", W above 1/64"}) +
          word(kFacing, {"", ", culls back", ", culls front"}) +
-         word(kSlivers, {"", ", leaves out turned ones", ", leaves out small ones"});
+         word(kSlivers, {"", ", leaves out turned ones", ", leaves out small ones"}) +
+         word(kBorder, {"", ", cuts a pixel beyond the borders", ", cuts 40 pixels beyond"});
 }
 
 bool draw_right(const Choices& choices, const surefill_adapter_scene& scene, const surefill_adapter_image& image) {
@@ -269,26 +354,41 @@ bool draw_right(const Choices& choices, const surefill_adapter_scene& scene, con
   for (std::uint32_t d = 0; d < scene.draw_count; ++d) {
     const surefill_adapter_draw& draw = scene.draws[d];
     for (std::uint32_t t = 0; t < draw.triangle_count; ++t) {
-      std::array<Corner, 3> c{};
+      std::array<Vertex, 3> given{};
       std::array<std::array<double, 3>, 3> v{};
       bool behind = false;
       for (std::size_t i = 0; i < 3; ++i) {
         const float* p = draw.pixel + 4 * std::size_t{draw.indices[3 * t + i]};
+        given[i] = {p[0], p[1], p[2], p[3], static_cast<int>(i)};
         v[i] = {static_cast<double>(p[0]) / p[3], static_cast<double>(p[1]) / p[3], static_cast<double>(p[2]) / p[3]};
         if (!(std::abs(v[i][0]) < kFarthest) || !(std::abs(v[i][1]) < kFarthest)) return false;
         behind = behind || (choices[kNear] == 1 && p[3] < 1.0f / 64);
-        c[i] = {position(choices, 0, p[0], p[3], width), position(choices, 1, p[1], p[3], height)};
       }
       if (behind) continue;
+      const bool clips = choices[kClip] == 1 || choices[kClip] == 2 || draw.depth_mode == SUREFILL_ADAPTER_CLIP_DEPTH;
+      const bool cuts = clips && choices[kClip] != 1;
+      const std::vector<Vertex> polygon = choices[kCode] == 1
+                                              ? cut_polygon<float>(choices, given, width, height, cuts)
+                                              : cut_polygon<double>(choices, given, width, height, cuts);
+      if (polygon.size() < 3) continue;
+      std::vector<Corner> c;
+      std::vector<int> edges;
+      double twice_area = 0;
+      for (const Vertex& p : polygon) {
+        c.push_back({position(choices, 0, p.x, p.w, width), position(choices, 1, p.y, p.w, height)});
+        edges.push_back(p.edge);
+      }
       const double before = (v[1][0] - v[0][0]) * (v[2][1] - v[0][1]) - (v[1][1] - v[0][1]) * (v[2][0] - v[0][0]);
-      const int turn = side_of(choices, c[0], c[1], c[2]);
+      const int turn = turn_of(choices, c, twice_area);
       if (turn == 0) continue;
       if (choices[kSlivers] == 1 && turn * before < 0) continue;
-      const double area = std::abs((c[1].x - c[0].x) * (c[2].y - c[0].y) - (c[1].y - c[0].y) * (c[2].x - c[0].x));
-      if (choices[kSlivers] == 2 && area < 1.0 / 64) continue;
+      if (choices[kSlivers] == 2 && twice_area < 1.0 / 64) continue;
       const bool front = turn > 0;
       if (choices[kFacing] != 0 && front == (choices[kFacing] == 2)) continue;
-      if (!front) std::swap(c[1], c[2]);
+      if (!front) {
+        std::reverse(c.begin() + 1, c.end());
+        std::reverse(edges.begin(), edges.end());
+      }
       // Depth is that of the triangle as it is seen: moved with the viewport.
       std::array<std::array<double, 3>, 3> seen = v;
       for (auto& corner : seen) {
@@ -297,20 +397,17 @@ bool draw_right(const Choices& choices, const surefill_adapter_scene& scene, con
       }
       const Plane plane = plane_of(seen);
       const auto pixel = [](double at, int length) { return static_cast<int>(std::clamp(at, 0.0, 1.0 * length)); };
-      const auto [left, right] = std::minmax({c[0].x, c[1].x, c[2].x});
-      const auto [top, bottom] = std::minmax({c[0].y, c[1].y, c[2].y});
-      for (int y = pixel(top - 1, height); y < pixel(bottom + 2, height); ++y) {
-        for (int x = pixel(left - 1, width); x < pixel(right + 2, width); ++x) {
+      const auto [left, right] =
+          std::minmax_element(c.begin(), c.end(), [](const Corner& a, const Corner& b) { return a.x < b.x; });
+      const auto [top, bottom] =
+          std::minmax_element(c.begin(), c.end(), [](const Corner& a, const Corner& b) { return a.y < b.y; });
+      for (int y = pixel(top->y - 1, height); y < pixel(bottom->y + 2, height); ++y) {
+        for (int x = pixel(left->x - 1, width); x < pixel(right->x + 2, width); ++x) {
           const Corner s{x + place[0], y + place[1]};
-          bool inside = true;
-          for (int i = 0; i < 3 && inside; ++i) {
-            const Corner &p = c[static_cast<std::size_t>(i)], &q = c[static_cast<std::size_t>((i + 1) % 3)];
-            const int side = side_of(choices, p, q, s);
-            inside = side > 0 || (side == 0 && owns(choices, p, q, front, i));
-          }
+          const bool inside = covers(choices, c, edges, front, s);
           if (!inside) continue;
           const double z = plane.x * s.x + plane.y * s.y + plane.one;
-          if (choices[kClip] == 1 && (z < 0 || z > 1)) continue;
+          if (clips && (z < 0 || z > 1)) continue;
           const auto at = static_cast<std::size_t>(y) * scene.width + static_cast<std::size_t>(x);
           if (image.count) ++image.count[at];
           const double depth = stored(choices, z);

@@ -25,16 +25,17 @@ enum Choice : std::size_t {
   kBlur,       // none, through a float32 above 128
   kViewport,   // exact, a pixel less, moved by a quarter
   kFormat,     // of depth: float32, double, 24 bits, 16 bits
-  kClip,       // to depth 0 to 1: no, always
+  kClip,       // to depth 0 to 1: no, always, always by cutting triangles, where a draw asks by cutting triangles
   kRange,      // of clip depth: 0 to 1, -1 to 1
   kClear,      // to infinity, to 1
   kTest,       // LESS, LEQUAL
   kNear,       // W: any, above 1/64
   kFacing,     // culled always: none, back, front
   kSlivers,    // turned ones: drawn, left out, all small ones left out
+  kBorder,     // triangles are cut: nowhere, a pixel beyond the target's borders, 40 pixels beyond
   kNumberOfChoices
 };
-inline constexpr std::array<int, kNumberOfChoices> kChoices{3, 4, 4, 2, 6, 8, 2, 3, 4, 2, 2, 2, 2, 2, 3, 3};
+inline constexpr std::array<int, kNumberOfChoices> kChoices{3, 4, 4, 2, 6, 8, 2, 3, 4, 4, 2, 2, 2, 2, 3, 3, 3};
 using Choices = std::array<int, kNumberOfChoices>;
 
 // So many of them that each pair of choices is in one; "right-17" is the 17th.
@@ -42,7 +43,12 @@ const std::vector<Choices>& right_rasterizers();
 std::string right_name(std::size_t number);
 std::string right_text(const Choices& choices);  // the choices in words
 
-// The scene is plain (adapter.h). False: not for this one.
+// Whether it clips depth where a draw asks (SUREFILL_ADAPTER_DEPTH_CLIP).
+inline bool clips_where_asked(const Choices& choices) {
+  return choices[kClip] == 3;
+}
+
+// The scene is plain (adapter.h), but for depth clipping. False: not for this one.
 bool draw_right(const Choices& choices, const surefill_adapter_scene& scene, const surefill_adapter_image& image);
 
 }  // namespace surefill::zoo

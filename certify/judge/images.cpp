@@ -144,6 +144,7 @@ class Look {
 
   Judgement run(const Counts& counts, const Looks& looks) {
     const std::size_t total = counts.least.size();
+    result_.least = counts.least;
     result_.differs.assign(total, 0);
     result_.unknown.assign(total, 0);
     for (std::size_t s = 0; s < total; ++s) {
@@ -155,7 +156,7 @@ class Look {
         if (got < counts.least[s] || got > counts.most[s]) {
           const std::string wanted = known ? std::to_string(counts.least[s])
                                            : std::to_string(counts.least[s]) + " to " + std::to_string(counts.most[s]);
-          differs("count", s, wanted, std::to_string(got), known);
+          differs("count", s, wanted, std::to_string(got), 1, known);
           continue;
         }
       }
@@ -174,9 +175,10 @@ class Look {
 
  private:
   void differs(const std::string& what, std::size_t s, const std::string& expected, const std::string& actual,
-               bool known = true) {
+               double error, bool known = true) {
     if (!result_.differs[s]) {
       ++result_.differences;
+      result_.values.push_back({s, what, expected, actual, std::isnan(error) ? HUGE_VAL : error});
       // What is wrong at an open sample has been judged there.
       if (!known) ++result_.samples, --result_.open;
     }
@@ -189,13 +191,13 @@ class Look {
 
   void look_at_empty(std::size_t s) {
     if (!image_.index.empty() && image_.index[s] != kNoTriangle) {
-      differs("index", s, "none", named(image_.index[s]));
+      differs("index", s, "none", named(image_.index[s]), 1);
       return;
     }
     const float empty = frame_.depth_test == DepthTest::greater ? -std::numeric_limits<float>::infinity()
                                                                 : std::numeric_limits<float>::infinity();
     if (image_.depth.empty() || image_.depth[s] == empty || image_.depth[s] == terms_.model.clear) return;
-    differs("depth of an empty sample", s, number(empty), number(image_.depth[s]));
+    differs("depth of an empty sample", s, number(empty), number(image_.depth[s]), HUGE_VAL);
   }
 
   void look_at_values(std::size_t s, std::uint32_t which) {
@@ -210,7 +212,7 @@ class Look {
     const bool greater = frame_.depth_test == DepthTest::greater;
     if (std::isfinite(model.clear) && (greater ? granted.low <= 0 : granted.high >= model.clear)) return;
     if (!image_.index.empty() && image_.index[s] != identifier_of(draw, t)) {
-      differs("index", s, named(identifier_of(draw, t)), named(image_.index[s]));
+      differs("index", s, named(identifier_of(draw, t)), named(image_.index[s]), 1);
       return;
     }
     if (!image_.depth.empty() && draw.depth_write) {
@@ -264,11 +266,11 @@ class Look {
     }
     if (!image_.index.empty()) {
       if (image_.index[s] == kNoTriangle) {
-        if (counts.least[s] > 0 && !hidden) differs("index", s, "a triangle's", "none", known);
+        if (counts.least[s] > 0 && !hidden) differs("index", s, "a triangle's", "none", 1, known);
         return;
       }
       if (seen.empty()) {
-        differs("index", s, "that of a triangle that may cover it", named(image_.index[s]), known);
+        differs("index", s, "that of a triangle that may cover it", named(image_.index[s]), 1, known);
         return;
       }
     } else if (image_.count.empty() || image_.count[s] == 0 || hidden) {
@@ -383,7 +385,7 @@ class Look {
     if (!std::isfinite(granted.low) || !std::isfinite(granted.high)) return;
     if (actual >= granted.low && actual <= granted.high) return;
     differs(name, s, number(static_cast<float>(granted.low)) + " to " + number(static_cast<float>(granted.high)),
-            number(actual), known);
+            number(actual), std::max(granted.low - actual, actual - granted.high), known);
   }
 
   // Notes the error of one value, in ULP of the largest number that is granted (next to 0 its own ULP says nothing of
@@ -400,7 +402,7 @@ class Look {
       deviation.ulp = std::max(deviation.ulp, error / std::ldexp(1.0, std::ilogb(scale) - 23));
       deviation.granted = std::max(deviation.granted, error / allowed);
     }
-    if (!good) differs(name, s, number(static_cast<float>(expected)), number(actual));
+    if (!good) differs(name, s, number(static_cast<float>(expected)), number(actual), error);
   }
 
   struct Of {

@@ -79,6 +79,13 @@ struct Judgement {
   std::string finding;                // the first difference, in words; empty if there is none
   std::size_t sample = 0;             // where it is
   std::vector<std::uint8_t> differs;  // of each sample
+  struct Value {
+    std::size_t sample;
+    std::string output, expected, actual;  // as in `finding`
+    double error;                          // how far it is from what is granted; HUGE_VAL: it is no number
+  };
+  std::vector<Value> values;         // what differs first at each of these
+  std::vector<std::uint32_t> least;  // R1's c of each sample
   std::vector<std::uint8_t> unknown;  // 1 where the count is open
 };
 

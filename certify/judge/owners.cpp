@@ -76,6 +76,16 @@ Side lattice_side(const std::array<int, 2>& p, const std::array<int, 2>& q, cons
   return x > 0 ? Side::bottom_left : Side::bottom_right;
 }
 
+// Is the sample at a vertex, from which edges go to p and q, surely covered?
+bool owns_corner(const Model& model, const std::array<int, 2>& p, const std::array<int, 2>& q) {
+  const bool front = cross(p, q) > 0;
+  if (model.vertices != oracle::AtVertices::as_edges) return false;
+  if (model.culled != Cull::none && (model.culled == Cull::front) == front) return false;
+  const Owners& owners = front ? model.front : model.back;
+  const auto own = static_cast<std::uint8_t>(owners.owned & ~owners.open);
+  return (own & bit(lattice_side({0, 0}, p, q))) != 0 && (own & bit(lattice_side({0, 0}, q, p))) != 0;
+}
+
 }  // namespace
 
 void infer_owners(Rival& rival, Inference& result) {
@@ -173,6 +183,22 @@ void infer_small(Rival& rival, Inference& result) {
       return;
     }
     drawn = 4.5 * sx * sy;
+  }
+  // The smallest one of a grid has its corners a step apart. No sample is inside; the one at a corner may be its own.
+  if (model.x.bits < 0 || model.y.bits < 0 || model.x.bits > 12 || model.y.bits > 12) return;
+  const double sx = std::ldexp(1.0, -model.x.bits), sy = std::ldexp(1.0, -model.y.bits);
+  for (const int a : {-1, 1}) {
+    for (const int b : {-1, 1}) {
+      for (const bool turned : {false, true}) {
+        const std::array<int, 2> p{turned ? 0 : a, turned ? b : 0}, q{turned ? a : 0, turned ? 0 : b};
+        if (!owns_corner(model, p, q) ||
+            covers_middle(rival, model, {{{0, 0}, {p[0] * sx, p[1] * sy}, {q[0] * sx, q[1] * sy}}})) {
+          continue;
+        }
+        model.least_area = 1.1 * drawn;
+        return;
+      }
+    }
   }
 }
 

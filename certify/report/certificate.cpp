@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -147,6 +148,9 @@ Json json_of(const CheckResult& result) {
                          {"expected", evidence.expected},
                          {"actual", evidence.actual},
                          {"differs", evidence.differs}};
+    for (const properties::Exhibit::Value& v : evidence.values) {
+      check["evidence"]["values"].push_back({v.sample, v.output, v.expected, v.actual, fmt::format("{:.9g}", v.error)});
+    }
   }
   return check;
 }
@@ -197,6 +201,14 @@ CheckResult result_of(const Json& check) {
     if (!sizes || evidence.expected.size() != total || evidence.differs.size() != total ||
         (!evidence.actual.empty() && evidence.actual.size() != total)) {
       throw CertificateError("evidence of another size than it says");
+    }
+    for (const Json& value : from.value("values", Json::array())) {
+      const auto text = [&value](std::size_t n) { return value.at(n).get<std::string>(); };
+      evidence.values.push_back(
+          {value.at(0).get<std::size_t>(), text(1), text(2), text(3), std::strtod(text(4).c_str(), nullptr)});
+      if (evidence.values.back().sample >= total || !(evidence.values.back().error >= 0)) {
+        throw CertificateError("evidence with a value beside it, or with no error");
+      }
     }
   }
   return result;

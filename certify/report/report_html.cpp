@@ -11,6 +11,7 @@
 
 #include "certify/report/report_files.hpp"
 #include "certify/report/report_pictures.hpp"
+#include "certify/report/report_values.hpp"
 #include "corpus/scene.hpp"
 
 namespace surefill::certify {
@@ -78,19 +79,6 @@ std::pair<std::string, std::string> values_in(const std::string& finding) {
   return {finding.substr(expected + 11, got - expected - 11), finding.substr(got + 6)};
 }
 
-// "0x1.8p-1 (0.75)" as people read it, or a range of such.
-std::string readable(const std::string& value) {
-  std::string result;
-  for (std::size_t begin = 0; begin < value.size();) {
-    const std::size_t open = value.find(" (", begin), close = value.find(')', begin);
-    if (open == std::string::npos || close == std::string::npos) return value;
-    if (!result.empty()) result += " to ";
-    result += value.substr(open + 2, close - open - 2);
-    begin = close + 1;
-  }
-  return result;
-}
-
 // The value that a finding speaks of, at its pixel.
 Label label_of(const std::string& finding, const std::string& value) {
   Label label;
@@ -146,7 +134,7 @@ std::string finding_card(const std::vector<const CheckResult*>& findings, const 
       html += picture(evidence, evidence.actual.empty() ? evidence.expected : evidence.actual, whole, triangles,
                       "The whole target, or a window of it", true);
     }
-    html += "</div>\n";
+    html += "</div>\n" + values_html(evidence, view);
   }
   if (!best.replay.empty()) html += fmt::format("<pre>{}</pre>\n", escaped(best.replay));
   if (!best.scene_text.empty()) {
@@ -237,7 +225,8 @@ std::string html_report(const Certificate& certificate) {
         "<h2>Findings: {} cause{}</h2>\n<p class=\"key\">Samples, by how many triangles cover them:"
         "<span style=\"background:#c3c8d0\"></span>none<span style=\"background:#2467b5\"></span>one"
         "<span style=\"background:#e08a00\"></span>two<span style=\"background:#8a3ab9\"></span>more"
-        "<span style=\"border:2px solid #d01f1f;width:9px;height:9px\"></span>differs</p>\n",
+        "<span style=\"background:#eadfc2\"></span>open<span style=\"border:2px solid #d01f1f;width:9px;height:9px\">"
+        "</span>differs</p>\n",
         causes.size(), causes.size() == 1 ? "" : "s");
     std::vector<std::pair<std::string, std::vector<const CheckResult*>>> sorted(causes.begin(), causes.end());
     std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {

@@ -74,6 +74,7 @@ std::vector<Point> snapped(const std::array<Vertex, 3>& triangle, const Grid& gr
 }
 
 const char* colour_of(std::uint32_t count) {
+  if (count == properties::Exhibit::kOpenCount) return "#eadfc2";
   return count == 0 ? "#c3c8d0" : count == 1 ? "#2467b5" : count == 2 ? "#e08a00" : "#8a3ab9";
 }
 
@@ -241,7 +242,8 @@ std::string picture(const Evidence& evidence, const std::vector<std::uint32_t>& 
         if (evidence.samples == 1 && scale >= kLeastNumberScale && !labelled) {
           svg += fmt::format(
               "<text x=\"{:.3f}\" y=\"{:.3f}\" font-size=\"{:.4f}\" fill=\"#1d2129\" text-anchor=\"middle\">{}</text>",
-              cx, y + 0.97, kNumberSize / scale, counts[s]);
+              cx, y + 0.97, kNumberSize / scale,
+              counts[s] == properties::Exhibit::kOpenCount ? "?" : std::to_string(counts[s]));
         }
         if (!marks || !evidence.differs[s]) continue;
         svg += fmt::format(

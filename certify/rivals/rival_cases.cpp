@@ -60,6 +60,24 @@ CaseResult strict_case(const Scene& scene, Rival& rival) {
   return result;
 }
 
+// The picture of what the judge found.
+properties::Exhibit exhibit_of(const judge::Judgement& judgement, const judge::Frame& frame,
+                               const std::vector<std::uint32_t>& actual) {
+  properties::Exhibit exhibit{frame.width,     frame.height, frame.samples,     "",
+                              judgement.least, actual,       judgement.differs, {}};
+  for (std::size_t s = 0; s < judgement.unknown.size(); ++s) {
+    if (judgement.unknown[s]) exhibit.expected[s] = properties::Exhibit::kOpenCount;
+  }
+  for (const judge::Judgement::Value& value : judgement.values) {
+    if (value.output != "count") {
+      exhibit.values.push_back({value.sample, value.output, value.expected, value.actual, value.error});
+    }
+  }
+  const bool counts = exhibit.values.size() < judgement.values.size();
+  exhibit.output = counts ? "count" : exhibit.values.front().output == "index" ? "index" : "values";
+  return exhibit;
+}
+
 CaseResult case_of(const judge::Judgement& judgement) {
   CaseResult result;
   result.samples = judgement.samples;
@@ -79,8 +97,11 @@ CaseResult model_case(const Scene& scene, const RivalSubject& subject, const jud
   const judge::Frame frame = frame_of(actual.target(), actual.draws());
   if (!judge::why_open(subject.terms, frame).empty()) return not_applicable();
   rival.draw(actual.target(), actual.draws());
-  return case_of(
-      judge::judge_image(adapters::oracle_expected(), subject.terms, frame, actual.image(), looks, scene.attributes));
+  const judge::Judgement judgement =
+      judge::judge_image(adapters::oracle_expected(), subject.terms, frame, actual.image(), looks, scene.attributes);
+  CaseResult result = case_of(judgement);
+  if (result.differences > 0) result.exhibit = exhibit_of(judgement, frame, actual.image().count);
+  return result;
 }
 
 bool starts_with(const properties::Property& property, std::string_view text) {
@@ -298,8 +319,8 @@ bool still_tiles(const Scene& scene, const RivalSubject& subject) {
   const corpus::Frame frame(scene, {false, false, false, false, false});
   const judge::Frame seen = frame_of(frame.target(), frame.draws());
   std::map<std::pair<Key, Key>, int> edges;
-  std::map<Key, std::array<double, 2>> places;
-  double beside = 0;  // how far snapping and blur move a border
+  std::map<Key, std::array<double, 2>> places;  // in pixels of the target: R3
+  double beside = 0;                            // how far snapping and blur move a border
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const judge::Model model = judge::model_of_draw(subject.terms, seen, frame.draws()[d]);
     if (!oracle::watertight_rule(model) || model.culled != Cull::none) return false;
@@ -317,7 +338,11 @@ bool still_tiles(const Scene& scene, const RivalSubject& subject) {
         const corpus::SceneVertex &p = scene.draws[d].vertices[triangle.vertices[i]],
                                   &q = scene.draws[d].vertices[triangle.vertices[(i + 1) % 3]];
         const Key a = key_of(p), b = key_of(q);
-        places[a] = {static_cast<double>(p.x) / p.w, static_cast<double>(p.y) / p.w};
+        const auto along = [](const oracle::AxisModel& axis, double at, int length) {
+          return at * (length - axis.lacks) / length + axis.moved;
+        };
+        places[a] = {along(model.x, static_cast<double>(p.x) / p.w, scene.width),
+                     along(model.y, static_cast<double>(p.y) / p.w, scene.height)};
         ++edges[std::minmax(a, b)];
       }
     }
@@ -343,13 +368,17 @@ CaseResult alone_case(const Scene& original, const RivalSubject& subject) {
   }
   return guarded_case(scene, [&] {
     CaseResult result;
-    properties::Exhibit exhibit{scene.width, scene.height, scene.samples, "", {}, {}, {}};
+    properties::Exhibit exhibit{scene.width, scene.height, scene.samples, "", {}, {}, {}, {}};
     const auto mark = [&exhibit](const char* output, std::size_t sample) {
       if (exhibit.output.empty()) exhibit.output = output;
       if (exhibit.output == output) exhibit.differs[sample] = 1;
     };
-    const auto differs = [&](const std::string& what, std::size_t sample, std::uint32_t triangle) {
+    const auto differs = [&](const std::string& what, std::size_t sample, std::uint32_t triangle,
+                             const std::string& expected, const std::string& actual, double error) {
       mark("values", sample);
+      if (exhibit.values.empty() || exhibit.values.back().sample != sample) {
+        exhibit.values.push_back({sample, what, expected, actual, std::isnan(error) ? HUGE_VAL : error});
+      }
       if (result.differences++ > 0) return;
       const auto pixel = sample / static_cast<std::size_t>(scene.samples);
       const auto width = static_cast<std::size_t>(scene.width);
@@ -424,22 +453,24 @@ CaseResult alone_case(const Scene& original, const RivalSubject& subject) {
       }
       const std::uint32_t wanted = nearest == alone.size() ? kNoTriangle : identifiers[nearest];
       if (whole.index[s] != wanted) {
-        differs("the visible triangle", s, wanted);
+        const auto name = [](std::uint32_t index) { return index == kNoTriangle ? "none" : std::to_string(index); };
+        differs("the visible triangle", s, wanted, name(wanted), name(whole.index[s]), 1);
         continue;
       }
       if (nearest == alone.size()) continue;
-      if (!same_bits(whole.depth[s], alone[nearest].depth[s])) differs("depth", s, wanted);
+      const auto look = [&](const std::string& what, float expected, float actual) {
+        if (same_bits(expected, actual)) return;
+        differs(what, s, wanted, fmt::format("{:.9g}", expected), fmt::format("{:.9g}", actual),
+                std::abs(double{actual} - expected));
+      };
+      look("depth", alone[nearest].depth[s], whole.depth[s]);
       for (std::size_t i = 0; !whole.barycentrics.empty() && i < 3; ++i) {
-        if (!same_bits(whole.barycentrics[3 * s + i], alone[nearest].barycentrics[3 * s + i])) {
-          differs("barycentrics", s, wanted);
-        }
+        look("barycentrics", alone[nearest].barycentrics[3 * s + i], whole.barycentrics[3 * s + i]);
       }
       for (std::size_t k = 0; k < whole.attributes.size(); ++k) {
         const std::size_t components = scene.attributes[k].components;
         for (std::size_t c = components * s; c < components * (s + 1); ++c) {
-          if (!same_bits(whole.attributes[k][c], alone[nearest].attributes[k][c])) {
-            differs(scene.attributes[k].name, s, wanted);
-          }
+          look(scene.attributes[k].name, alone[nearest].attributes[k][c], whole.attributes[k][c]);
         }
       }
     }

@@ -132,6 +132,7 @@ class List {
     Rival& rival = *subject_.rival;
     check.stopped = [&rival] { return rival.given_up() ? rival.why_given_up() : std::string(); };
     check.describe = [&subject = subject_](const Scene& scene) { return judge_scene(scene, subject).finding; };
+    check.exhibit = [&subject = subject_](const Scene& scene) { return judge_scene(scene, subject).exhibit; };
     check.expected = adapters::model_renderer(rival);
     check.actual = adapters::rival_renderer(rival);
     return check;
@@ -152,6 +153,7 @@ class List {
     check.still_fails = reducible(
         *subject.rival, [&subject, decide](const Scene& scene) { return decide(scene, subject).differences > 0; });
     check.describe = [&subject, decide](const Scene& scene) { return decide(scene, subject).finding; };
+    check.exhibit = [&subject, decide](const Scene& scene) { return decide(scene, subject).exhibit; };
   }
 
   std::uint64_t cases() const {
@@ -216,7 +218,6 @@ class List {
     add_scenes(kInvariants, "alone", "T5, V1",
                "an image is what its triangles drawn alone make of it, to the bit, and the same when drawn again",
                cases() * 2, scene_for, alone_case);
-    checks_.back().exhibit = [&subject = subject_](const Scene& scene) { return alone_case(scene, subject).exhibit; };
     add_values();
   }
 

@@ -17,15 +17,16 @@ namespace surefill::certify {
 // Both answers in a window of the target, row by row, sample by sample.
 struct Evidence {
   int x0 = 0, y0 = 0, width = 0, height = 0, samples = 1;  // nothing if width is 0
-  std::vector<std::uint32_t> expected, actual;  // coverage counts; `actual` is empty where there is no answer
-  std::vector<std::uint8_t> differs;            // 1 where the answers differ
-  std::string what;                             // the output in which they do
+  // Coverage counts; Exhibit::kOpenCount where any is right. `actual` is empty where there is no answer.
+  std::vector<std::uint32_t> expected, actual;
+  std::vector<std::uint8_t> differs;               // 1 where the answers differ
+  std::string what;                                // the output in which they do
+  std::vector<properties::Exhibit::Value> values;  // where it is not counts; `sample` is one of the window
 };
 
 inline constexpr int kEvidenceSize = 48;  // pixels of a window each way, at most
 
-// Draws both. Where counts agree, it is the index that is compared, and where that agrees, the values: those of at
-// least half the largest error are marked.
+// Draws both. Where counts agree, it is the index that is compared, and where that agrees, the values, to the bit.
 Evidence gather_evidence(const corpus::Scene& scene, const properties::Renderer& expected,
                          const properties::Renderer& actual);
 

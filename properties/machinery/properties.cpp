@@ -122,7 +122,8 @@ void Trial::show_pixel(std::string_view what, const char* output, int x, int y, 
     const auto total = static_cast<std::size_t>(showing->width) * static_cast<std::size_t>(showing->height);
     std::vector<std::uint32_t> covers(total, 0);
     if (std::string_view(output) != "count" && showing->covers.size() == total) covers = showing->covers;
-    at->second.exhibit = {showing->width, showing->height, 1, output, covers, covers, std::vector<std::uint8_t>(total)};
+    at->second.exhibit = {
+        showing->width, showing->height, 1, output, covers, covers, std::vector<std::uint8_t>(total), {}};
   }
   Page& page = at->second;
   if ((found && showing->found_page != &page) || page.complete || x >= showing->width || y >= showing->height) return;
@@ -189,7 +190,7 @@ void Trial::expect_same(std::string_view what, const corpus::Scene& scene, const
   const bool shows = showing != nullptr && !showing->found && showing->found_page == nullptr;
   Exhibit shown;
   if (shows) {
-    shown = {expected.width, expected.height, expected.samples, "", covers_of(expected), covers_of(expected), {}};
+    shown = {expected.width, expected.height, expected.samples, "", covers_of(expected), covers_of(expected), {}, {}};
     shown.differs.assign(shown.expected.size(), 0);
   }
   const std::vector<std::uint32_t> covers = shows ? covers_of(actual) : std::vector<std::uint32_t>();

@@ -46,8 +46,16 @@ std::span<const Property> all_properties();
 struct Exhibit {
   int width = 0, height = 0, samples = 1;
   std::string output;  // "count", "index" or "values"
-  std::vector<std::uint32_t> expected, actual;
+  std::vector<std::uint32_t> expected, actual;  // counts; kOpenCount where any would be right
   std::vector<std::uint8_t> differs;
+  // What differs other than counts, at most one of each sample: numbers as people read them, and how far off it is.
+  struct Value {
+    std::size_t sample = 0;
+    std::string output, expected, actual;
+    double error = 0;  // HUGE_VAL for what is no number
+  };
+  std::vector<Value> values;
+  static constexpr std::uint32_t kOpenCount = 0xFFFFFFFF;
 };
 
 // Of what `decide` finds first on the scene. None where it finds nothing, where there is no image to show, and where it

@@ -84,8 +84,8 @@ struct Judgement {
     std::string output, expected, actual;  // as in `finding`
     double error;                          // how far it is from what is granted; HUGE_VAL: it is no number
   };
-  std::vector<Value> values;         // what differs first at each of these
-  std::vector<std::uint32_t> least;  // R1's c of each sample
+  std::vector<Value> values;          // what differs first at each of these
+  std::vector<std::uint32_t> least;   // R1's c of each sample
   std::vector<std::uint8_t> unknown;  // 1 where the count is open
 };
 

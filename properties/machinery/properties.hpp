@@ -45,7 +45,7 @@ std::span<const Property> all_properties();
 // differs the covers may be equal, and the marks say where it does.
 struct Exhibit {
   int width = 0, height = 0, samples = 1;
-  std::string output;  // "count", "index" or "values"
+  std::string output;                           // "count", "index" or "values"
   std::vector<std::uint32_t> expected, actual;  // counts; kOpenCount where any would be right
   std::vector<std::uint8_t> differs;
   // What differs other than counts, at most one of each sample: numbers as people read them, and how far off it is.

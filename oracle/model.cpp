@@ -326,6 +326,25 @@ bool near_hull(const std::vector<Corner>& hull, const Sample& sample) {
          sample.near_y() >= top->y - sample.within_y && sample.near_y() <= bottom->y + sample.within_y;
 }
 
+// Do all vertices lie so far to one side of the target that nothing is covered or open? In double, with room to spare.
+bool far_aside(const Model& model, int width, int height, const std::array<Vertex, 3>& t) {
+  const auto aside = [&t](const AxisModel& axis, int length, float Vertex::*numerator) {
+    const double more = 8 + 4 * std::max(axis.blur, axis.divided_blur) + axis.place_within + std::abs(axis.place);
+    bool before = true, behind = true;
+    for (const Vertex& v : t) {
+      const double q = static_cast<double>(v.*numerator) / v.w * (length - axis.lacks) / length + axis.moved;
+      before = before && q < -more;
+      behind = behind && q > length + more;
+    }
+    return before || behind;
+  };
+  const bool near = std::all_of(t.begin(), t.end(), [](const Vertex& v) {
+    const float band = static_cast<float>(kFarthest / 2) * v.w;
+    return v.w > 0 && std::abs(v.x) < band && std::abs(v.y) < band;
+  });
+  return near && (aside(model.x, width, &Vertex::x) || aside(model.y, height, &Vertex::y));
+}
+
 }  // namespace
 
 std::vector<Cover> cover(const Model& model, int width, int height, int samples,
@@ -333,7 +352,7 @@ std::vector<Cover> cover(const Model& model, int width, int height, int samples,
   const StandardFloats standard;
   const auto pattern = static_cast<std::size_t>(samples);
   std::vector<Cover> answers(static_cast<std::size_t>(width) * static_cast<std::size_t>(height) * pattern, Cover::no);
-  if (!all_finite(triangle)) return answers;
+  if (!all_finite(triangle) || far_aside(model, width, height, triangle)) return answers;
   const Placed placed = place_triangle(model, width, height, triangle);
   if (placed.kind == Placed::Kind::nothing) return answers;
   std::optional<ClippedTriangle> clipped;

@@ -80,6 +80,35 @@ bool snapped_exactly(double position, const AxisModel& axis, double& result) {
   return add_exactly(axis.grid_offset, std::ldexp(k, -axis.bits), result);
 }
 
+// R5's integer k of a number known to within `error`, if that is one and the same for all of these.
+bool surely_rounded(double value, double error, Rounding rounding, double& k) {
+  const bool nearest = rounding <= Rounding::nearest_away;
+  const double below = std::floor(nearest ? value + 0.5 : value), part = (nearest ? value + 0.5 : value) - below;
+  if (!(part > error && part < 1 - error)) return false;
+  const bool up = rounding == Rounding::ceiling || (rounding == Rounding::truncate && value < 0);
+  k = up ? below + 1 : below;
+  return true;
+}
+
+// The same as the rational numbers below, where a grid leaves no doubt in double.
+bool placed_surely(const AxisModel& axis, int length, float numerator, float w, double blur, Interval& result) {
+  if (axis.bits < 0) return false;
+  const double q = static_cast<double>(numerator) / w * ((length - axis.lacks) / length) + axis.moved;
+  const double size = std::abs(q) + std::abs(axis.moved) + std::abs(axis.grid_offset) + blur + 1;
+  const double error = std::ldexp(0x1p-48 * size, axis.bits);  // 2^5 roundings
+  if (!(size < kFarthest / 2) || !(error < 0x1p-8)) return false;
+  double low = 0, high = 0;
+  if (!surely_rounded(std::ldexp(q - blur - axis.grid_offset, axis.bits), error, axis.rounding, low) ||
+      !surely_rounded(std::ldexp(q + blur - axis.grid_offset, axis.bits), error, axis.rounding, high) ||
+      !add_exactly(axis.grid_offset, std::ldexp(low, -axis.bits), result.near_low) ||
+      !add_exactly(axis.grid_offset, std::ldexp(high, -axis.bits), result.near_high)) {
+    return false;
+  }
+  result.exact = true;
+  result.point = low == high;
+  return true;
+}
+
 }  // namespace
 
 bool cut_by_depth(const Model& model, const Vertex& vertex) {
@@ -107,6 +136,7 @@ bool place_vertex(const AxisModel& axis, int length, float numerator, float w, I
       return std::abs(q) <= kFarthest;
     }
   }
+  if (placed_surely(axis, length, numerator, w, blur, result)) return true;
   Rational q(numerator);
   q /= Rational(w);
   if (axis.lacks != 0) q *= (length - Rational(axis.lacks)) / length;

@@ -452,7 +452,7 @@ std::string explain(const ExplainOptions& options) {
   if (options.view == "tile-tests") svg = tile_test_view(scene, options.tile);
   if (options.view == "fill-rules") svg = fill_rule_view(scene);
   if (options.view == "snapping") svg = snapping_view(scene);
-  if (options.view == "interpolation") svg = interpolation_view(scene);
+  if (options.view == "interpolation") svg = interpolation_view(scene, options.values);
   if (options.view == "clipping") svg = clipping_view(scene);
   if (options.view == "painter") svg = painter_view(scene);
   if (options.view == "hierarchical-z") svg = hierarchical_z_view(scene);

@@ -50,7 +50,8 @@ std::string traversal_view(const Explained& scene, const ExplainOptions& options
 std::string tile_test_view(const Explained& scene, int tile);
 std::string fill_rule_view(const Explained& scene);
 std::string snapping_view(const Explained& scene);
-std::string interpolation_view(const Explained& scene);
+// `values`: the right value and the float one, as numbers, where they differ.
+std::string interpolation_view(const Explained& scene, bool values);
 std::string affine_w_view();
 std::string clipping_view(const Explained& scene);
 std::string painter_view(const Explained& scene);

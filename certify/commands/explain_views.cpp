@@ -125,7 +125,19 @@ std::string snapping_view(const Explained& scene) {
   return sheet.file();
 }
 
-std::string interpolation_view(const Explained& scene) {
+// Beside how many ULP it is off, if there is room: the right value above the one that came.
+void write_wrong(const Panel& panel, int x, int y, float right, float value, std::int64_t ulps, bool values) {
+  const SvgPoint p = panel.at(x + 0.5, y + 0.5);
+  const double size = std::min(11.0, panel.scale / 2.6);
+  if (values) {
+    panel.svg.text({p.x, p.y - 4}, 11, "middle", fmt::format("{:.9g}", right), "fill=\"#20242c\"");
+    panel.svg.text({p.x, p.y + 10}, 11, "middle", fmt::format("{:.9g}", value), "fill=\"#8c1010\"");
+  } else if (size >= 7) {
+    panel.svg.text({p.x, p.y + size * 0.36}, size, "middle", fmt::format("{}", ulps), "fill=\"#20242c\"");
+  }
+}
+
+std::string interpolation_view(const Explained& scene, bool values) {
   constexpr float kValues[3] = {0.1f, 0.9f, 0.4f};
   const Explained::OneTriangle& one = scene.triangles[scene.chosen];
   for (const Vertex& v : one.vertices) {
@@ -136,7 +148,13 @@ std::string interpolation_view(const Explained& scene) {
   const Interpolator<mpq_class> exact(one.vertices);
   const Interpolator<float> single(one.vertices);
   const Interpolator<double> twice(one.vertices);
-  Sheet sheet(5, 3, 0, 0, scene.width, scene.height, 300.0 / std::max(scene.width, scene.height), 3);
+  constexpr int kMostWithValues = 24;
+  const int longest = std::max(scene.width, scene.height);
+  if (values && longest > kMostWithValues) {
+    throw std::runtime_error(
+        fmt::format("--values: with numbers a target has up to {} pixels each way", kMostWithValues));
+  }
+  Sheet sheet(6, values ? 1 : 3, 0, 0, scene.width, scene.height, values ? 78 : 300.0 / longest, 3);
   for (int n = 0; n < 5; ++n) {
     const Route route = kRoutes[n];
     const Panel panel = sheet.panel(n, name_of(route));
@@ -161,7 +179,8 @@ std::string interpolation_view(const Explained& scene) {
                     ulps == 0   ? "fill=\"#cfe9cf\""
                     : ulps == 1 ? "fill=\"#fbe38e\""
                     : ulps < 8  ? "fill=\"#f0a35c\""
-                                : "fill=\"#cf4b40\"");
+                                : "fill=\"#e2877e\"");
+        if (ulps != 0) write_wrong(panel, x, y, right, value, ulps, values);
       }
     }
     draw_outline(panel, one);
@@ -171,7 +190,7 @@ std::string interpolation_view(const Explained& scene) {
   }
   const Panel legend = sheet.panel(5, "float, in ulp of the right value");
   constexpr const char* kWords[] = {"0", "1", "2 to 7", "8 and more"};
-  constexpr const char* kLegend[] = {"fill=\"#cfe9cf\"", "fill=\"#fbe38e\"", "fill=\"#f0a35c\"", "fill=\"#cf4b40\""};
+  constexpr const char* kLegend[] = {"fill=\"#cfe9cf\"", "fill=\"#fbe38e\"", "fill=\"#f0a35c\"", "fill=\"#e2877e\""};
   for (int k = 0; k < 4; ++k) {
     const SvgPoint p{legend.origin.x, legend.origin.y + 24.0 * k};
     legend.svg.rect(p, {p.x + 18, p.y + 18}, kLegend[k]);

@@ -338,7 +338,8 @@ int run(int argc, char** argv) {
   explain_command->add_option("--strategy", explain_options.strategy, "The traversal to show (hierarchical)")
       ->check(CLI::IsMember(strategy_names()));
   explain_command->add_flag("--compare", explain_options.compare, "All traversals side by side, with their counts");
-  explain_command->add_flag("--values", explain_options.values, "Write the edge values at each sample");
+  explain_command->add_flag("--values", explain_options.values,
+                            "Write numbers: edge values at each sample; interpolated values where they are wrong");
   add_whole_number(*explain_command, "--tile", explain_options.tile, 4, 64, "Size of the (largest) tiles (16)");
   add_whole_number(*explain_command, "--triangle", explain_options.triangle, 0, std::numeric_limits<int>::max(),
                    "Number of the triangle to show (0)");

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
@@ -78,13 +77,16 @@ Json json_of(double value) {
   return std::isfinite(value) ? Json(value) : Json("infinite");
 }
 
-double error_of(const Json& json, const char* key) {
-  const Json& value = json.at(key);
+double number_or_infinite(const Json& value, const char* key) {
   if (value == "infinite") return HUGE_VAL;
   if (!value.is_number() || !(value.get<double>() >= 0)) {
     throw CertificateError(fmt::format("\"{}\" is no error", key));
   }
   return value.get<double>();
+}
+
+double error_of(const Json& json, const char* key) {
+  return number_or_infinite(json.at(key), key);
 }
 
 Json json_of(const Deviations& deviations) {
@@ -109,6 +111,55 @@ Deviations deviations_of(const Json& json) {
   get("barycentrics", deviations.barycentrics);
   get("attributes", deviations.attributes);
   return deviations;
+}
+
+Json json_of(const Evidence& evidence) {
+  Json json{{"x0", evidence.x0},
+            {"y0", evidence.y0},
+            {"width", evidence.width},
+            {"height", evidence.height},
+            {"samples", evidence.samples},
+            {"what", evidence.what},
+            {"expected", evidence.expected},
+            {"actual", evidence.actual},
+            {"differs", evidence.differs}};
+  for (const properties::Exhibit::Value& v : evidence.values) {
+    json["values"].push_back({v.sample, v.output, v.expected, v.actual, json_of(v.error)});
+  }
+  return json;
+}
+
+Evidence evidence_of(const Json& from) {
+  Evidence evidence;
+  const auto size_of = [&from](const char* key) {
+    return static_cast<int>(count_of(from, key, std::numeric_limits<int>::max()));
+  };
+  evidence.x0 = size_of("x0");
+  evidence.y0 = size_of("y0");
+  evidence.width = size_of("width");
+  evidence.height = size_of("height");
+  evidence.samples = size_of("samples");
+  evidence.what = from.at("what");
+  evidence.expected = numbers_of<std::uint32_t>(from, "expected", 0xFFFFFFFFu);
+  evidence.actual = numbers_of<std::uint32_t>(from, "actual", 0xFFFFFFFFu);
+  evidence.differs = numbers_of<std::uint8_t>(from, "differs", 1);
+  const bool sizes = evidence.width <= kEvidenceSize && evidence.height <= kEvidenceSize && evidence.samples >= 1 &&
+                     evidence.samples <= 16;
+  const auto total = static_cast<std::size_t>(sizes ? evidence.width * evidence.height * evidence.samples : 0);
+  if (!sizes || evidence.expected.size() != total || evidence.differs.size() != total ||
+      (!evidence.actual.empty() && evidence.actual.size() != total)) {
+    throw CertificateError("evidence of another size than it says");
+  }
+  for (const Json& value : from.value("values", Json::array())) {
+    const Json& sample = value.at(0);
+    if (!sample.is_number_unsigned() || sample.get<std::uint64_t>() >= total) {
+      throw CertificateError("a value that is no sample's of the evidence");
+    }
+    evidence.values.push_back({sample.get<std::size_t>(), value.at(1).get<std::string>(),
+                               value.at(2).get<std::string>(), value.at(3).get<std::string>(),
+                               number_or_infinite(value.at(4), "values")});
+  }
+  return evidence;
 }
 
 Json json_of(const CheckResult& result) {
@@ -137,21 +188,8 @@ Json json_of(const CheckResult& result) {
   if (!result.scene.empty()) check["scene"] = result.scene;
   if (!result.replay.empty()) check["replay"] = result.replay;
   if (!result.scene_text.empty()) check["scene_text"] = result.scene_text;
-  const Evidence& evidence = result.evidence;
-  if (evidence.width > 0) {
-    check["evidence"] = {{"x0", evidence.x0},
-                         {"y0", evidence.y0},
-                         {"width", evidence.width},
-                         {"height", evidence.height},
-                         {"samples", evidence.samples},
-                         {"what", evidence.what},
-                         {"expected", evidence.expected},
-                         {"actual", evidence.actual},
-                         {"differs", evidence.differs}};
-    for (const properties::Exhibit::Value& v : evidence.values) {
-      check["evidence"]["values"].push_back({v.sample, v.output, v.expected, v.actual, fmt::format("{:.9g}", v.error)});
-    }
-  }
+  if (result.evidence.width > 0) check["evidence"] = json_of(result.evidence);
+  if (result.found.width > 0) check["evidence_as_found"] = json_of(result.found);
   return check;
 }
 
@@ -180,37 +218,8 @@ CheckResult result_of(const Json& check) {
   result.scene = check.value("scene", "");
   result.replay = check.value("replay", "");
   result.scene_text = check.value("scene_text", "");
-  if (check.contains("evidence")) {
-    const Json& from = check["evidence"];
-    Evidence& evidence = result.evidence;
-    const auto size_of = [&from](const char* key) {
-      return static_cast<int>(count_of(from, key, std::numeric_limits<int>::max()));
-    };
-    evidence.x0 = size_of("x0");
-    evidence.y0 = size_of("y0");
-    evidence.width = size_of("width");
-    evidence.height = size_of("height");
-    evidence.samples = size_of("samples");
-    evidence.what = from.at("what");
-    evidence.expected = numbers_of<std::uint32_t>(from, "expected", 0xFFFFFFFFu);
-    evidence.actual = numbers_of<std::uint32_t>(from, "actual", 0xFFFFFFFFu);
-    evidence.differs = numbers_of<std::uint8_t>(from, "differs", 1);
-    const bool sizes = evidence.width <= kEvidenceSize && evidence.height <= kEvidenceSize && evidence.samples >= 1 &&
-                       evidence.samples <= 16;
-    const auto total = static_cast<std::size_t>(sizes ? evidence.width * evidence.height * evidence.samples : 0);
-    if (!sizes || evidence.expected.size() != total || evidence.differs.size() != total ||
-        (!evidence.actual.empty() && evidence.actual.size() != total)) {
-      throw CertificateError("evidence of another size than it says");
-    }
-    for (const Json& value : from.value("values", Json::array())) {
-      const auto text = [&value](std::size_t n) { return value.at(n).get<std::string>(); };
-      evidence.values.push_back(
-          {value.at(0).get<std::size_t>(), text(1), text(2), text(3), std::strtod(text(4).c_str(), nullptr)});
-      if (evidence.values.back().sample >= total || !(evidence.values.back().error >= 0)) {
-        throw CertificateError("evidence with a value beside it, or with no error");
-      }
-    }
-  }
+  if (check.contains("evidence")) result.evidence = evidence_of(check["evidence"]);
+  if (check.contains("evidence_as_found")) result.found = evidence_of(check["evidence_as_found"]);
   return result;
 }
 

@@ -117,14 +117,15 @@ std::string finding_card(const std::vector<const CheckResult*>& findings, const 
     const auto [wanted, came] = values_in(said);
     const bool of_values = !evidence.what.empty() && evidence.what != "count" && !wanted.empty();
     html += picture(evidence, evidence.expected, view, triangles,
-                    of_values ? "Expected: " + wanted : "Expected: covers of each sample", of_values,
+                    of_values ? "Expected: " + readable(wanted) : "Expected: covers of each sample", of_values,
                     of_values ? label_of(said, wanted) : Label{});
     if (!evidence.actual.empty()) {
       const std::string what = evidence.what.empty() ? ""
                                                      : ", where " + evidence.what + " differ" +
                                                            (evidence.what == "values" ? "" : "s") + " ringed";
-      html += picture(evidence, evidence.actual, view, triangles, of_values ? "Got: " + came + what : "Got" + what,
-                      true, of_values ? label_of(said, came) : Label{});
+      html += picture(evidence, evidence.actual, view, triangles,
+                      of_values ? "Got: " + readable(came) + what : "Got" + what, true,
+                      of_values ? label_of(said, came) : Label{});
     } else {
       html += "<p>The rasterizer gave no image of this scene.</p>\n";
     }
@@ -135,6 +136,12 @@ std::string finding_card(const std::vector<const CheckResult*>& findings, const 
                       "The whole target, or a window of it", true);
     }
     html += "</div>\n" + values_html(evidence, view);
+  }
+  if (!best.found.values.empty()) {
+    html += fmt::format(
+        "<p>The case as it was found, before it was made smaller: {} of {} samples have wrong values.</p>\n",
+        best.found.values.size(), best.found.differs.size());
+    html += values_html(best.found, zoomed(best.found));
   }
   if (!best.replay.empty()) html += fmt::format("<pre>{}</pre>\n", escaped(best.replay));
   if (!best.scene_text.empty()) {
@@ -223,10 +230,11 @@ std::string html_report(const Certificate& certificate) {
   if (!causes.empty()) {
     html += fmt::format(
         "<h2>Findings: {} cause{}</h2>\n<p class=\"key\">Samples, by how many triangles cover them:"
-        "<span style=\"background:#c3c8d0\"></span>none<span style=\"background:#2467b5\"></span>one"
-        "<span style=\"background:#e08a00\"></span>two<span style=\"background:#8a3ab9\"></span>more"
-        "<span style=\"background:#eadfc2\"></span>open<span style=\"border:2px solid #d01f1f;width:9px;height:9px\">"
-        "</span>differs</p>\n",
+        "<span style=\"background:#c3c8d0\"></span>&#8288;none<span style=\"background:#2467b5\"></span>&#8288;one"
+        "<span style=\"background:#e08a00\"></span>&#8288;two<span style=\"background:#8a3ab9\"></span>&#8288;more"
+        "<span style=\"background:#eadfc2\"></span>&#8288;open<span style=\"border:2px solid "
+        "#d01f1f;width:9px;height:9px\">"
+        "</span>&#8288;differs</p>\n",
         causes.size(), causes.size() == 1 ? "" : "s");
     std::vector<std::pair<std::string, std::vector<const CheckResult*>>> sorted(causes.begin(), causes.end());
     std::sort(sorted.begin(), sorted.end(), [](const auto& a, const auto& b) {

@@ -120,7 +120,7 @@ std::string numbers(const Evidence& evidence, const View& view) {
 // The first wrong samples, each as how far it is off, all at the scale of the largest of these.
 std::string differences(const Evidence& evidence) {
   constexpr std::size_t kMost = 10;
-  constexpr double kRow = 22, kMiddle = 195, kReach = 75, kWidth = 420;
+  constexpr double kRow = 22, kMiddle = 172, kReach = 62, kWidth = 334;
   std::vector<std::pair<const Value*, double>> shown;
   double largest = 0;
   for (const Value& value : evidence.values) {
@@ -185,11 +185,15 @@ std::string heat(const Evidence& evidence) {
                         (at.first - evidence.x0) * scale, (at.second - evidence.y0) * scale, scale, scale,
                         heat_colour(std::max(error, low), low, high));
   }
+  const std::string scale_end =
+      high > low ? fmt::format("<span style=\"background:{}\"></span>&#8288;{:.3g}", heat_colour(high, low, high), high)
+                 : "";
   return fmt::format(
-      "<figure><figcaption class=\"key\">How far off: <span style=\"background:{}\"></span>{:.3g}<span "
-      "style=\"background:{}\"></span>{:.3g}{}; pixels ({}, {}) to ({}, {})</figcaption>{}</figure>\n",
-      heat_colour(low, low, high), low, heat_colour(high, low, high), high,
-      none ? "<span style=\"background:#000\"></span>no number" : "", evidence.x0, evidence.y0,
+      "<figure><figcaption class=\"key\">How far off:<span style=\"background:{}\"></span>&#8288;{:.3g}{}{}; pixels "
+      "({}, {}) to "
+      "({}, {})</figcaption>{}</figure>\n",
+      heat_colour(low, low, high), low, scale_end,
+      none ? "<span style=\"background:#000\"></span>&#8288;no number" : "", evidence.x0, evidence.y0,
       evidence.x0 + evidence.width - 1, evidence.y0 + evidence.height - 1,
       svg_of(scale * evidence.width, height, body));
 }
@@ -233,7 +237,7 @@ Pair told_apart(const std::string& expected, const std::string& actual) {
   const std::optional<double> b = number_in(actual);
   const std::string nearest = end_passed(expected, b.value_or(0));
   const std::optional<double> a = number_in(nearest);
-  if (!a || !b) return {nearest, actual};
+  if (!a || !b) return {a ? fmt::format("{:.4g}", *a) : nearest, b ? fmt::format("{:.4g}", *b) : actual};
   Pair pair;
   for (int digits = 3; digits <= 9; ++digits) {
     pair = {fmt::format("{:.{}g}", *a, digits), fmt::format("{:.{}g}", *b, digits)};

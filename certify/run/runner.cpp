@@ -144,6 +144,14 @@ std::string difference_in(const Settings& settings, const Check& check, const co
   return now.first.empty() ? "" : describe_finding(now.first.front(), scene.samples);
 }
 
+// The picture that the finding itself has, or else the two images of the scene. `in_scene`: these differ.
+Evidence evidence_in(const Check& check, const corpus::Scene& scene, bool* in_scene) {
+  Evidence evidence = gather_evidence(scene, check.expected, check.actual);
+  *in_scene = !evidence.what.empty() || evidence.actual.empty();
+  const std::optional<properties::Exhibit> exhibit = check.exhibit ? check.exhibit(scene) : std::nullopt;
+  return exhibit ? evidence_of(*exhibit) : evidence;
+}
+
 // Reduces the scene of a finding, writes it, and fills in where it is.
 void keep_finding(const Settings& settings, const Check& check, const std::string& directory, CheckResult& result) {
   if (result.scene_text.empty()) return;
@@ -168,10 +176,12 @@ void keep_finding(const Settings& settings, const Check& check, const std::strin
   if (!result.shown.empty()) comment += "\nIn this scene: " + result.shown;
   bool in_scene = true;  // the two images of the scene differ
   if (valid(scene)) {
-    result.evidence = gather_evidence(scene, check.expected, check.actual);
-    in_scene = !result.evidence.what.empty() || result.evidence.actual.empty();
-    const std::optional<properties::Exhibit> exhibit = check.exhibit ? check.exhibit(scene) : std::nullopt;
-    if (exhibit) result.evidence = evidence_of(*exhibit);
+    result.evidence = evidence_in(check, scene, &in_scene);
+    if (!result.evidence.values.empty() && valid(original)) {
+      bool unused = false;
+      Evidence found = evidence_in(check, original, &unused);
+      if (found.values.size() > result.evidence.values.size()) result.found = std::move(found);
+    }
   }
   scene.comment = comment;
   result.scene_text = corpus::write_scene(scene);

@@ -41,7 +41,8 @@ struct CheckResult {
   std::string shown;       // the first difference in that scene, in words
   std::string scene;       // path of the reduced scene; empty if there is none
   std::string replay;      // the command that shows it
-  Evidence evidence;
+  Evidence evidence;       // of that scene
+  Evidence found;          // of the case as it was found, where values differ at more samples there
 
   bool complete() const { return done == due; }
   bool passed() const { return complete() && failed == 0; }

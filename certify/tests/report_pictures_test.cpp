@@ -6,7 +6,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
+
+#include "certify/report/report_values.hpp"
 
 namespace surefill::certify {
 namespace {
@@ -79,6 +82,53 @@ TEST(ReportPictures, SamplesHaveACrossAndANumber) {
   EXPECT_EQ(count(svg, "<path "), 2u);
   EXPECT_EQ(count(svg, "</text>"), 2u);
   EXPECT_EQ(count(svg, "#d01f1f"), 1u) << "one ring";
+}
+
+TEST(ReportPictures, NumbersHaveTheDigitsThatTellThemApart) {
+  const auto pair = [](const char* expected, const char* actual) {
+    const Pair both = told_apart(expected, actual);
+    return both.expected + " | " + both.actual;
+  };
+  EXPECT_EQ(pair("0.5", "0.25"), "0.5 | 0.25");
+  EXPECT_EQ(pair("0.333333343", "0.333333373"), "0.3333333 | 0.3333334");
+  EXPECT_EQ(pair("0.25 to 0.75", "0.125"), "0.25 | 0.125");
+  EXPECT_EQ(pair("0.25 to 0.75", "0.875"), "0.75 | 0.875");
+  EXPECT_EQ(pair("0.123456789", "nan"), "0.1235 | nan");
+  EXPECT_EQ(pair("none", "3"), "none | 3");
+  EXPECT_EQ(readable("0x1p-1 (0.5) to 0x1p+0 (1)"), "0.5 to 1");
+}
+
+TEST(ReportPictures, AllWrongValuesAreShown) {
+  Evidence evidence;
+  evidence.width = 20;
+  evidence.height = 1;
+  evidence.expected.assign(20, 1);
+  evidence.actual = evidence.expected;
+  evidence.differs.assign(20, 0);
+  evidence.what = "values";
+  for (const std::size_t s : {1u, 2u, 4u}) {
+    evidence.differs[s] = 1;
+    evidence.values.push_back({s, "depth", "0.5", s == 4 ? "nan" : "0.50390625", s == 4 ? HUGE_VAL : 0x1p-8});
+  }
+  const View view = zoomed(evidence);
+  const std::string few = values_html(evidence, view);
+  EXPECT_EQ(count(few, ">0.504</text>"), 2u) << few;
+  EXPECT_EQ(count(few, ">nan</text>"), 1u);
+  EXPECT_EQ(count(few, "+0.00391"), 2u) << "two of the three are so far off, at the scale of the difference";
+  EXPECT_FALSE(has(few, "How far off")) << "all have room as numbers";
+  EXPECT_TRUE(has(few, "3 wrong values as numbers"));
+  evidence.differs[19] = 1;
+  evidence.values.push_back({19, "b <0>", "1", "0.875", 0.125});
+  const std::string many = values_html(evidence, view);
+  EXPECT_TRUE(has(many, "How far off") && has(many, "0.125") && has(many, "no number")) << many;
+  EXPECT_TRUE(has(many, "depth and b &lt;0&gt;"));
+  EXPECT_EQ(values_html(of_two_pixels(), view), "");
+}
+
+TEST(ReportPictures, OpenCountsAreQuestions) {
+  Evidence evidence = of_two_pixels();
+  evidence.expected[1] = properties::Exhibit::kOpenCount;
+  EXPECT_EQ(count(picture(evidence, evidence.expected, {0, 0, 2, 1}, {}, "Expected", false), ">?</text>"), 1u);
 }
 
 TEST(ReportPictures, TurnsAreDots) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "oracle/oracle.hpp"
+#include "oracle/positions.hpp"
 #include "properties/generators/generators.hpp"
 
 namespace surefill::oracle {
@@ -260,6 +261,85 @@ TEST(Model, RoundingsDifferAtTiesOnly) {
   EXPECT_EQ(covers(Rounding::floor, 1.75f), 1u);
   EXPECT_EQ(covers(Rounding::ceiling, 1.25f), 2u);
   EXPECT_EQ(covers(Rounding::truncate, 1.75f), 1u);
+}
+
+// R5 in rational numbers, from the page: o + k 2^-b.
+Rational snapped_rationally(const Rational& position, const AxisModel& axis) {
+  const Rational offset(axis.grid_offset), step(std::ldexp(1.0, -axis.bits)), value((position - offset) / step);
+  const Rational half(1, 2), down = floor_of(value), up = -floor_of(-value);
+  const auto nearest = [&](const Rational& at_tie) {
+    return value - down == half ? at_tie : Rational(floor_of(value + half));
+  };
+  const Rational towards = value < 0 ? up : down, away = value < 0 ? down : up;
+  const Rational even = floor_of(down / 2) * 2 == down ? down : up;
+  const Rational k = axis.rounding == Rounding::nearest_even   ? nearest(even)
+                     : axis.rounding == Rounding::nearest_up   ? nearest(up)
+                     : axis.rounding == Rounding::nearest_down ? nearest(down)
+                     : axis.rounding == Rounding::nearest_away ? nearest(away)
+                     : axis.rounding == Rounding::truncate     ? towards
+                     : axis.rounding == Rounding::floor        ? down
+                                                               : up;
+  return offset + k * step;
+}
+
+TEST(Model, PositionsAreThoseOfRationalNumbers) {
+  Random random(0x905);
+  for (int n = 0; n < 40000; ++n) {
+    AxisModel axis;
+    axis.bits = random.between(0, 10);
+    axis.rounding = static_cast<Rounding>(random.between(0, 6));
+    axis.grid_offset = random.between(0, 1) * std::ldexp(random.between(0, 15), -axis.bits - 4);
+    axis.lacks = random.between(0, 3) == 0 ? 1 : 0;
+    axis.moved = random.between(0, 2) * 0.125;
+    axis.blur = random.between(0, 2) * 0x1p-16;
+    const int length = random.between(3, 40);
+    // Every third one is a tie, or beside it.
+    const auto w = static_cast<float>(random.between(1, 4095)) / 64;
+    const double tie = std::ldexp(random.between(-4000, 4000), -axis.bits - 1) + axis.grid_offset;
+    const auto x = static_cast<float>((n % 3 == 0 ? tie : random.between(-9999, 9999) / 97.0) * w);
+    Interval got;
+    ASSERT_TRUE(place_vertex(axis, length, x, w, got));
+    const bool divided = w != std::exp2(std::round(std::log2(w)));
+    const Rational blur(divided ? std::max(axis.blur, axis.divided_blur) : axis.blur);
+    const Rational q = Rational(x) / Rational(w) * (length - Rational(axis.lacks)) / length + Rational(axis.moved);
+    EXPECT_EQ(end_of(got, 0), snapped_rationally(q - blur, axis)) << n;
+    EXPECT_EQ(end_of(got, 1), snapped_rationally(q + blur, axis)) << n;
+    EXPECT_EQ(got.is_point(), end_of(got, 0) == end_of(got, 1)) << n;
+  }
+}
+
+// R9: what may be cut is open within d = 1/16 of its edges, and as before where it is not cut.
+TEST(Model, WhatMayBeCutIsOpenNearItsEdges) {
+  // The edge from the upper right to the lower left passes the samples of a diagonal; the depth is Z.
+  const auto steep = [](float near, float far) { return Triangle{{{0, 0, near, 1}, {4, 0, far, 1}, {0, 4, far, 1}}}; };
+  Model model;
+  EXPECT_EQ(picture(model, 4, 4, steep(-1, 2)), "###./##../#.../..../") << "nothing clips depth";
+  model.clipped = {0, 1};
+  EXPECT_EQ(picture(model, 4, 4, steep(0, 1)), "###./##../#.../..../") << "at the limits is not beyond them";
+  EXPECT_EQ(picture(model, 4, 4, steep(0.5f, 0.5f)), "###./##../#.../..../");
+  const std::string cut = "###o/##o./#o../o.../";
+  EXPECT_EQ(picture(model, 4, 4, steep(-1, 0.5f)), cut);
+  EXPECT_EQ(picture(model, 4, 4, steep(0.5f, 2)), cut);
+  EXPECT_EQ(picture(model, 4, 4, steep(0.5f, 0x1.fffffep-1f)), cut) << "within roundings of a limit";
+  model.clipped = {-INFINITY, 1};
+  EXPECT_EQ(picture(model, 4, 4, steep(-1, 0.5f)), "###./##../#.../..../") << "no near plane";
+  // A band of two pixels beyond the target.
+  model = {};
+  model.band = 2;
+  EXPECT_EQ(picture(model, 4, 4, flat(-2, 6, -2, -2, 6, -2)), "###./##../#.../..../");
+  EXPECT_EQ(picture(model, 4, 4, flat(-3, 7, -3, -3, 7, -3)), cut);
+  // Below the least W it may be left out as a whole.
+  model = {};
+  model.least_w = 2;
+  EXPECT_EQ(picture(model, 4, 4, steep(0, 0)), "oooo/ooo./oo../o.../");
+  // Small ones are left out, so what is left of one that is cut may be.
+  model = {};
+  model.clipped = {0, 1};
+  model.least_area = 0.25;
+  EXPECT_EQ(picture(model, 4, 4, steep(-1, 0.5f)), "oooo/ooo./oo../o.../");
+  // Vertices of depths that are far apart.
+  model.least_area = 0;
+  EXPECT_EQ(picture(model, 2, 2, {{{0, 0, -1, 1}, {512 * 4, 0, 0, 512}, {0, 4, 0, 1}}}), "oo/oo/");
 }
 
 TEST(Model, ARuleIsWatertightIfBothFacingsGoByIt) {

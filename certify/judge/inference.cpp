@@ -20,6 +20,11 @@ namespace {
 using oracle::AxisModel;
 
 constexpr double kMostBlur = 1.0 / 16;  // R13: what is blurred more is not known
+constexpr double kClearer = 4;          // a band has to make so much less of the blur: it leaves more open
+
+double blur_of(const Model& model) {
+  return std::max(model.x.blur, model.y.blur);
+}
 
 std::vector<Turn> of_axis(const std::vector<Turn>& turns, int axis) {
   std::vector<Turn> part;
@@ -530,9 +535,16 @@ Inference infer_as_drawn(Rival& rival, const Expected& expected, const std::opti
   } catch (const Declined& reason) {
     result.open.push_back(std::string("how small a triangle it draws: ") + reason.what());
   }
+  const Inference whole = result;
   if (result.offscreen) infer_band(rival, expected, result);
   draw_trials(rival, result, probes);
   settle(expected, probes, result);
+  if (std::isfinite(result.model.band) && blur_of(result.model) > blur_of(whole.model)) {
+    // What is blurred as much without a band has none.
+    Inference blurred = whole;
+    settle(expected, probes, blurred);
+    if (blurred.known && blur_of(blurred.model) <= kClearer * blur_of(result.model)) result = blurred;
+  }
   if (!result.known) result.shape = tried_shape(rival, result);
   if (!result.known) give_up(expected, probes, "what was found does not explain other triangles", x, y, result);
   return result;
@@ -557,7 +569,8 @@ Inference infer(Rival& rival, const Expected& expected, const std::optional<Mode
   // What cuts triangles near the target shows other edges than those that are asked for, wherever a vertex lies beside it.
   OnTarget on_target(rival);
   Inference inner = infer_as_drawn(on_target, expected, declared);
-  if (!inner.known || !inner.problems.empty()) return result;
+  const bool clearer = !result.known || kClearer * blur_of(inner.model) <= blur_of(result.model);
+  if (!inner.known || !inner.problems.empty() || !clearer) return result;
   infer_band(rival, expected, inner);
   if (!std::isfinite(inner.model.band)) return result;
   inner.offscreen = true;

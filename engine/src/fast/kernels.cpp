@@ -5,7 +5,28 @@
 #define HWY_TARGET_INCLUDE "fast/kernels.cpp"
 #include "hwy/foreach_target.h"
 // The vector code includes Highway only after the loop above.
+#include <bit>
+#include <cstring>
+
 #include "build_check.hpp"
+#include "exact/exact_draw.hpp"
+#include "exact/grid.hpp"
+#include "fast/batch.hpp"
+#include "fast/tile.hpp"
+#include "hwy/base.h"
+#include "hwy/cache_control.h"
+// Where the instruction set is chosen at run time, few machines lack AVX2: the code for those is kept small. All that the
+// sets share is included before, so that it is not.
+#undef SUREFILL_KEEP_SMALL
+#if HWY_ARCH_X86 && defined(__OPTIMIZE__) && !defined(__clang__) && !defined(HWY_COMPILE_ONLY_SCALAR)
+#define SUREFILL_KEEP_SMALL (HWY_TARGET == HWY_SSE4 || HWY_TARGET == HWY_SCALAR)
+#else
+#define SUREFILL_KEEP_SMALL 0
+#endif
+#if SUREFILL_KEEP_SMALL
+#pragma GCC push_options
+#pragma GCC optimize("Os")
+#endif
 #include "fast/draw_tile-inl.hpp"
 #include "fast/records-inl.hpp"
 #include "fast/shade-inl.hpp"
@@ -50,6 +71,9 @@ const Kernels* ThisTarget() {
 
 }  // namespace surefill::fast::HWY_NAMESPACE
 HWY_AFTER_NAMESPACE();
+#if SUREFILL_KEEP_SMALL
+#pragma GCC pop_options
+#endif
 
 #if HWY_ONCE
 namespace surefill::fast {

@@ -176,7 +176,7 @@ std::vector<Subject> all_subjects() {
       {"sequences", {"V1 greater"}}};
   std::find_if(all.begin(), all.end(), [](const Subject& s) { return s.name == "modes"; })->deep = 20000;
   for (const auto& [name, kinds] : modes)
-    std::find_if(all.begin(), all.end(), [&name = name](const Subject& s) { return s.name == name; })->modes = kinds;
+    std::find_if(all.begin(), all.end(), [&name](const Subject& s) { return s.name == name; })->modes = kinds;
   return all;
 }
 

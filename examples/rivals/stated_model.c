@@ -35,8 +35,8 @@ static int draw_triangle(const surefill_adapter2_draw* draw, const uint32_t* thr
     const float* v = draw->pixel + 4 * (size_t)three[i];
     const double x = (double)v[0] / v[3], y = (double)v[1] / v[3];
     if (!(fabs(x) < kFarthest) || !(fabs(y) < kFarthest)) return 0;
-    c[i].x = (int64_t)floor(x * kOne);
-    c[i].y = (int64_t)floor(y * kOne);
+    c[i].x = (int64_t)floor(x * (double)kOne);
+    c[i].y = (int64_t)floor(y * (double)kOne);
   }
   const int64_t area = edge(c[0], c[1], c[2]);
   if (area == 0) return 1;

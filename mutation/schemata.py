@@ -75,8 +75,9 @@ class Path:
         self.active = {}  # of each file, the lines that the compiler sees
 
 
-ALWAYS = ["arguments.cpp", "build_check.cpp", "exact/exact_draw.cpp", "exact/grid.cpp", "exact/line.cpp", "fragments.cpp", "reference.cpp", "statistics.cpp", "surefill.cpp",
-          "viewport.cpp"]
+ALWAYS = ["arguments.cpp", "build_check.cpp", "exact/exact_draw.cpp", "exact/grid.cpp", "exact/line.cpp", "exact/occluder.cpp",
+          "fast/draw_patches.cpp", "fragments.cpp", "occluder_mesh.cpp", "occlusion.cpp", "patches.cpp", "reference.cpp",
+          "safe_occlusion.cpp", "statistics.cpp", "surefill.cpp", "viewport.cpp"]
 VECTOR_FILES = sorted(f"fast/{p.name}" for p in (ENGINE / "fast").glob("*-inl.hpp"))
 PATHS = {
     # What defines the engine's answers, and what the fast path falls back on.

@@ -52,6 +52,7 @@ ROOMS = {
     "fuzz": [*SUITE, "certify", "certify/judge", "hwy"],
     "examples/fuzz_your_rasterizer.cpp": [*SUITE, "fuzz"],  # an example of the suite
     "mutation": [*SUITE, "certify", "certify/adapter.h", "certify/judge", "mutation/zoo/zoo.hpp", "oracle/model.hpp"],
+    "web/wasm": [*SUITE, "certify"],  # the page's judge: what the certify command is made of, without a system
     # Tests see what they test, what that sees, and the properties.
     "engine/tests": [*SUITE, "engine/src", "engine/src/exact", "engine/src/fast", "hwy"],
     "oracle/tests": [*SUITE, "oracle/model.hpp"],

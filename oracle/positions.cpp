@@ -9,9 +9,9 @@
 namespace surefill::oracle {
 
 Rational floor_of(const Rational& value) {
-  Integer result;
-  mpz_fdiv_q(result.get_mpz_t(), value.get_num_mpz_t(), value.get_den_mpz_t());
-  return result;
+  Integer result = value.get_num() / value.get_den();  // towards 0
+  if (value < 0 && value.get_den() != 1) result -= 1;
+  return Rational(result);
 }
 
 namespace {
@@ -30,7 +30,7 @@ Rational rounded(const Rational& value, Rounding rounding) {
       break;
   }
   if (part != half) return part < half ? below : below + 1;
-  const bool even = mpz_even_p(below.get_num_mpz_t()) != 0;
+  const bool even = Integer(below.get_num() % 2) == 0;
   const bool down = rounding == Rounding::nearest_down || (rounding == Rounding::nearest_even && even) ||
                     (rounding == Rounding::nearest_away && value < 0);
   return down ? below : below + 1;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// What WebGPU and WebGL2 have in common: the vertices of a scene in the order in which they are drawn, and which scenes a depth
-// buffer can show.
-import { DepthModes, Unsupported } from "./wire.mjs";
+// What WebGPU and WebGL2 have in common: the vertices of a scene in the order in which they are drawn, which scenes a depth buffer can
+// show, and the image of what was read back.
+import { DepthModes, Outputs, Unsupported, kEmpty } from "./wire.mjs";
 
 export const kMaxAttributes = 4;
 
@@ -87,4 +87,36 @@ export function scissorOf(scene, draw) {
   const clamp = (value, most) => Math.min(Math.max(value, 0), most);
   const x = clamp(x0, scene.width), y = clamp(y0, scene.height);
   return [x, y, Math.max(clamp(x1, scene.width) - x, 0), Math.max(clamp(y1, scene.height) - y, 0)];
+}
+
+// The outputs that were asked for, as the adapter has them: what nothing covers holds its values of empty samples.
+export function imageOf(scene, { asked, total, stride, components, identifiers, counts, numbers, depths, values }) {
+  const image = {};
+  if (asked(Outputs.count)) image.count = counts;
+  if (asked(Outputs.index)) image.index = numbers.map((number) => (number === 0 ? kEmpty : identifiers[number] ?? number));
+  if (asked(Outputs.depth)) {
+    const all = new Float32Array(depths.buffer, depths.byteOffset, total), none = scene.greater ? -Infinity : Infinity;
+    image.depth = all.map((depth, s) => (numbers[s] === 0 ? none : depth));
+  }
+  const floats = values && new Float32Array(values.buffer, values.byteOffset, total * stride);
+  const part = (at, count) => {
+    const result = new Float32Array(total * count);
+    for (let s = 0; s < total; ++s) {
+      if (numbers[s] === 0) continue;
+      for (let c = 0; c < count; ++c) result[s * count + c] = floats[s * stride + at + c];
+    }
+    return result;
+  };
+  let at = 0;
+  if (asked(Outputs.barycentrics)) {
+    image.barycentrics = part(0, 3);
+    at = 3;
+  }
+  if (asked(Outputs.attributes)) {
+    image.attributes = components.map((count) => {
+      at += count;
+      return part(at - count, count);
+    });
+  }
+  return image;
 }

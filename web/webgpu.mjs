@@ -3,8 +3,8 @@
 // WebGPU as a rasterizer under test: off screen, in a browser or under Node (Dawn). A scene takes up to three passes: counts, by
 // atomics in a storage buffer; the visible triangle and its depth, into textures that a compute shader reads sample by sample;
 // weights and attributes, which the fragments of the visible triangles store.
-import { DepthModes, Features, Outputs, Profiles, Unsupported, kEmpty } from "./wire.mjs";
-import { depthsWithinBuffer, kMaxAttributes, refuseOthers, scissorOf, vertexStream } from "./vertices.mjs";
+import { DepthModes, Features, Outputs, Profiles, Unsupported } from "./wire.mjs";
+import { depthsWithinBuffer, imageOf, kMaxAttributes, refuseOthers, scissorOf, vertexStream } from "./vertices.mjs";
 import { countShader, kWrongShaders, readShader, valuesShader, visibleShader } from "./webgpu-shaders.mjs";
 
 // States that the adapter would set wrongly, for the tests: the self-check has to notice.
@@ -266,36 +266,4 @@ class WebGPUAdapter {
     at = 0;
     return outputs.map(([, count]) => all.subarray(at, (at += count)));
   }
-}
-
-// The outputs that were asked for, as the adapter has them: what nothing covers holds its values of empty samples.
-export function imageOf(scene, { asked, total, stride, components, identifiers, counts, numbers, depths, values }) {
-  const image = {};
-  if (asked(Outputs.count)) image.count = counts;
-  if (asked(Outputs.index)) image.index = numbers.map((number) => (number === 0 ? kEmpty : identifiers[number] ?? number));
-  if (asked(Outputs.depth)) {
-    const all = new Float32Array(depths.buffer, depths.byteOffset, total), none = scene.greater ? -Infinity : Infinity;
-    image.depth = all.map((depth, s) => (numbers[s] === 0 ? none : depth));
-  }
-  const floats = values && new Float32Array(values.buffer, values.byteOffset, total * stride);
-  const part = (at, count) => {
-    const result = new Float32Array(total * count);
-    for (let s = 0; s < total; ++s) {
-      if (numbers[s] === 0) continue;
-      for (let c = 0; c < count; ++c) result[s * count + c] = floats[s * stride + at + c];
-    }
-    return result;
-  };
-  let at = 0;
-  if (asked(Outputs.barycentrics)) {
-    image.barycentrics = part(0, 3);
-    at = 3;
-  }
-  if (asked(Outputs.attributes)) {
-    image.attributes = components.map((count) => {
-      at += count;
-      return part(at - count, count);
-    });
-  }
-  return image;
 }

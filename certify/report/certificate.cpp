@@ -5,11 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <set>
-#include <sstream>
 
 namespace surefill::certify {
 
@@ -364,13 +362,6 @@ Certificate read_certificate(const std::string& text, const std::string& file) {
   } catch (const nlohmann::json::exception& error) {
     throw CertificateError(file + ": not a certificate: " + error.what());
   }
-}
-
-Certificate read_certificate_file(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) throw CertificateError(path + ": cannot be read");
-  return read_certificate(text.str(), path);
 }
 
 std::string why_not_one_run(const Certificate& a, const Certificate& b) {

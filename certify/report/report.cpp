@@ -4,8 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include "certify/build_info.hpp"
 #include "surefill/diagnostics.hpp"
@@ -14,16 +12,6 @@
 namespace surefill::certify {
 
 namespace {
-
-std::string cpu_model() {
-  std::ifstream info("/proc/cpuinfo");
-  for (std::string line; std::getline(info, line);) {
-    if (!line.starts_with("model name")) continue;
-    const std::size_t colon = line.find(": ");
-    if (colon != std::string::npos) return line.substr(colon + 2);
-  }
-  return "unknown";
-}
 
 constexpr const char* kMeans =
     "every value compared equals the exact one, bit for bit: no tolerance, no sample left out";
@@ -68,6 +56,16 @@ std::string engine_path() {
 }
 
 }  // namespace
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    lines.push_back(text.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return lines;
+}
 
 std::string grouped(std::uint64_t number) {
   std::string digits = std::to_string(number);
@@ -236,8 +234,7 @@ std::string verdict_block(std::span<const CheckResult> results, const Facts& fac
     for (const std::string& what : facts.open) block += fmt::format("  unknown   {}\n", what);
     const bool none_fits = facts.inferred_model.starts_with("no");  // "none fits", "no samples that fit"
     if (none_fits || !facts.departures.empty() || !facts.problems.empty()) {
-      std::istringstream turns(facts.turns);
-      for (std::string line; std::getline(turns, line);) block += fmt::format("  turns     {}\n", line);
+      for (const std::string& line : lines_of(facts.turns)) block += fmt::format("  turns     {}\n", line);
     }
   }
   if (skipped > 0) {

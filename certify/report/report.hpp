@@ -34,6 +34,9 @@ struct Facts {
   bool of_rival() const { return !rival.empty(); }
 };
 
+// The processor's name, as the system has it.
+std::string cpu_model();
+
 // Version, commit, compiler, flags, cpu, instruction_set.
 Facts build_facts();
 
@@ -54,6 +57,9 @@ std::string verdict_block(std::span<const CheckResult> results, const Facts& fac
 std::string meaning(const Facts& facts);
 std::vector<std::string> limits(const Facts& facts);
 const char* verdict_name(Verdict verdict);
+
+// A text without the ends of its lines.
+std::vector<std::string> lines_of(const std::string& text);
 
 // "1,234,567".
 std::string grouped(std::uint64_t number);

@@ -14,6 +14,9 @@ namespace surefill::certify {
 // of checks. No scripts, no other files, nothing from the net.
 std::string html_report(const Certificate& certificate);
 
+// A scene as two answer it, sample by sample, as a part of such a page: `actual` is what the second one is called.
+std::string scene_pictures(const Evidence& evidence, const std::string& scene_text, const std::string& actual);
+
 // JUnit's XML: a suite for each verdict, a test case for each check; skipped ones and failures say why.
 std::string junit_report(const Certificate& certificate);
 

@@ -207,6 +207,19 @@ std::string model_card(const Facts& facts) {
 
 }  // namespace
 
+std::string scene_pictures(const Evidence& evidence, const std::string& scene_text, const std::string& actual) {
+  const std::vector<Outline> triangles = outlines(scene_text);
+  const View whole{evidence.x0, evidence.y0, evidence.x0 + evidence.width, evidence.y0 + evidence.height};
+  const std::string differ = evidence.what.empty() ? ""
+                                                   : ", where " + evidence.what + " differ" +
+                                                         (evidence.what == "values" ? "" : "s") + " ringed";
+  std::string html = "<div class=\"pictures\">\n" +
+                     picture(evidence, evidence.expected, whole, triangles, "Expected: covers of each sample", false);
+  if (evidence.actual.empty()) return html + "<p>" + escaped(actual) + " gave no image of this scene.</p></div>\n";
+  html += picture(evidence, evidence.actual, whole, triangles, actual + differ, true);
+  return html + (evidence.what.empty() ? "" : inset(evidence, triangles)) + "</div>\n";
+}
+
 std::string html_report(const Certificate& certificate) {
   const Facts& facts = certificate.facts;
   const std::string subject = facts.of_rival() ? facts.rival + " " + facts.rival_version : "Surefill's engine";

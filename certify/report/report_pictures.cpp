@@ -7,7 +7,8 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
-#include <sstream>
+
+#include "certify/report/report.hpp"
 
 namespace surefill::certify {
 
@@ -320,8 +321,7 @@ std::string turns_picture(const std::string& turns) {
   };
   std::vector<Row> rows;
   double widest = 0.5;
-  std::istringstream text(turns);
-  for (std::string line; std::getline(text, line);) {
+  for (const std::string& line : lines_of(turns)) {
     const std::size_t verb = line.find(" turns at");
     if (verb == std::string::npos) continue;
     Row& row = rows.emplace_back();

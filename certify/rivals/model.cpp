@@ -255,6 +255,8 @@ judge::Terms terms_of(const surefill_adapter_info& info, const std::optional<jud
   judge::Terms terms;
   terms.model = found.model;
   terms.known = found.known;
+  // It says so, or was found so by its flat depths; that some come back to the bit does not say that all do.
+  if (info.model.depth_range == SUREFILL_ADAPTER_MINUS_ONE_TO_ONE) terms.model.minus_one_to_one = true;
   // What it declares of coverage, unless probing finds another model: that is a finding by itself, and one is enough.
   const bool contradicted = found.known && !judge::differences(model_of(info.model), found.model).empty();
   if (info.model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN && !contradicted) {

@@ -7,8 +7,8 @@
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <cstdio>
 #include <exception>
-#include <filesystem>
 #include <mutex>
 #include <thread>
 #include <utility>
@@ -189,8 +189,7 @@ void keep_finding(const Settings& settings, const Check& check, const std::strin
   try {
     corpus::write_scene_file(scene, result.scene);
   } catch (...) {
-    std::error_code error;
-    std::filesystem::remove(result.scene, error);
+    (void)std::remove(result.scene.c_str());
     throw;
   }
   const std::string options = check.replay_option.empty() ? "" : check.replay_option + " ";

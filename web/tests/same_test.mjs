@@ -32,7 +32,10 @@ for (const check of command.checks) {
     if (!kTimed[check.name]?.includes(name)) compare(`${check.name}, ${name}`, check[name], other[name]);
   }
 }
-for (const name of ["format", "format_version", "verdict", "verdicts", "rival", "level", "seed", "means", "limits"]) compare(name, command[name], page[name]);
+// Who it is, browser and Dawn say in their own words.
+const said = ({ name, version, ...rest }) => rest;
+compare("rival", said(command.rival), said(page.rival));
+for (const name of ["format", "format_version", "verdict", "verdicts", "level", "seed", "means", "limits"]) compare(name, command[name], page[name]);
 compare("checks of the page alone", [], page.checks.map((check) => check.name).filter((name) => !command.checks.some((check) => check.name === name)));
 differences.forEach((text) => console.log(`FAIL  ${text.slice(0, 400)}`));
 if (differences.length === 0) console.log(`ok    command and page say the same of ${command.rival.name}: ${compared} checks, verdict ${page.verdict}`);

@@ -15,6 +15,7 @@
 
 #include "fuzz/decode.hpp"
 #include "properties/generators/generators.hpp"
+#include "properties/generators/occluders.hpp"
 
 namespace surefill::fuzz {
 namespace {
@@ -137,6 +138,7 @@ void add_obj(SeedWriter& seeds, const corpus::Scene& scene, const std::string& n
 void add_scene(SeedWriter& seeds, const corpus::Scene& scene, const std::string& name) {
   if (const std::optional<Bytes> bytes = encode_scene(scene)) {
     seeds.add("scene", name, *bytes);
+    seeds.add("occlusion", name, *bytes);
     if (scene.samples > 1) seeds.add("samples", name, *bytes);
     if (scene.draws[0].vertices.size() >= kMeshVertices) seeds.add("mesh", name, *bytes);
   }
@@ -147,6 +149,19 @@ void add_scene(SeedWriter& seeds, const corpus::Scene& scene, const std::string&
     if (const std::optional<Bytes> bytes = grid ? encode_grid_triangle(singles[t]) : encode_triangle(singles[t])) {
       seeds.add(grid ? "grid" : "triangle", name + "-" + std::to_string(t), *bytes);
       if (!grid) seeds.add("your_rasterizer", name + "-" + std::to_string(t), *bytes);
+    }
+  }
+}
+
+// Occluders of each category, the first that fit the form.
+void add_occluders(SeedWriter& seeds) {
+  for (const properties::OccluderCategory& category : properties::occluder_categories()) {
+    int added = 0;
+    for (std::uint64_t seed = 1; seed <= 200 && added < 4; ++seed) {
+      const corpus::Scene scene = properties::occluder_scene(category, seed, 12, 9, 6);
+      if (const std::optional<Bytes> bytes = encode_scene(scene)) {
+        seeds.add("occlusion", std::string("occluders-") + category.name + "-" + std::to_string(added++), *bytes);
+      }
     }
   }
 }
@@ -219,17 +234,18 @@ int write_seeds(const std::string& cases, const fs::path& out) {
     add_scene(seeds, scene, name);
     if (!scene.draws.empty()) add_obj(seeds, scene, name);
   }
-  for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj"}) {
+  for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj", "occlusion"}) {
     if (seeds.count(target) == 0) {
       std::fprintf(stderr, "surefill_fuzz_seeds: no scene of %s fits the target %s\n", cases.c_str(), target);
       return 1;
     }
   }
   add_generated(seeds);
+  add_occluders(seeds);
   add_arguments(seeds);
   add_texts(seeds);
-  for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj", "arguments",
-                             "c_api", "adapter", "certificate"}) {
+  for (const char* target : {"triangle", "grid", "scene", "samples", "mesh", "paths", "reader", "obj", "occlusion",
+                             "arguments", "c_api", "adapter", "certificate"}) {
     std::printf("%s: %zu seeds\n", target, seeds.count(target));
   }
   return 0;

@@ -194,10 +194,14 @@ class Look {
       differs("index", s, "none", named(image_.index[s]), 1);
       return;
     }
+    look_at_empty_depth(s, "depth of an empty sample");
+  }
+
+  void look_at_empty_depth(std::size_t s, const char* what) {
     const float empty = frame_.depth_test == DepthTest::greater ? -std::numeric_limits<float>::infinity()
                                                                 : std::numeric_limits<float>::infinity();
     if (image_.depth.empty() || image_.depth[s] == empty || image_.depth[s] == terms_.model.clear) return;
-    differs("depth of an empty sample", s, number(empty), number(image_.depth[s]), HUGE_VAL);
+    differs(what, s, number(empty), number(image_.depth[s]), HUGE_VAL);
   }
 
   void look_at_values(std::size_t s, std::uint32_t which) {
@@ -215,6 +219,7 @@ class Look {
       differs("index", s, named(identifier_of(draw, t)), named(image_.index[s]), 1);
       return;
     }
+    if (!image_.depth.empty() && !draw.depth_write) look_at_empty_depth(s, "depth, which is not written,");  // M5
     if (!image_.depth.empty() && draw.depth_write) {
       Range allowed = granted;
       if (draw.depth_mode == DepthMode::clamp) {

@@ -330,6 +330,11 @@ corpus::Scene reaching_scene(Random& random, const Model& model, double given, i
 void infer_band(Rival& rival, const Expected& expected, Inference& result) {
   constexpr int kFarthest = 1 << 13, kEdges = 24, kTimes = 8;
   Random random(0xBA4D);
+  // Less than an eighth of a step is what the step was found from wrongly.
+  const int bits = std::max(result.model.x.bits, result.model.y.bits);
+  const double hair = std::ldexp(0.125, bits < 0 ? -16 : -bits);
+  Model finer = result.model;
+  finer.x.blur = std::max(finer.x.blur, hair), finer.y.blur = std::max(finer.y.blur, hair);
   std::vector<Probe> probes;
   std::optional<double> band;
   try {
@@ -337,7 +342,9 @@ void infer_band(Rival& rival, const Expected& expected, Inference& result) {
       for (int n = 0; n < kEdges; ++n) {
         const corpus::Scene scene = reaching_scene(random, result.model, rival.position_step(), distance, n);
         probes.push_back({scene, rival.draw(scene, covering(rival))});
-        if (wrong_samples(expected, result.model, probes.back()) > 0) band = distance / (2 * kTimes);
+        if (wrong_samples(expected, result.model, probes.back()) == 0) continue;
+        if (wrong_samples(expected, finer, probes.back()) > 0) band = distance / (2 * kTimes);
+        if (!band) result.model = finer;
       }
     }
   } catch (const Declined&) {

@@ -11,6 +11,7 @@
 #include <string_view>
 #include <utility>
 
+#include "certify/judge/questions.hpp"
 #include "certify/rivals/frame.hpp"
 #include "properties/machinery/trial.hpp"
 
@@ -397,6 +398,15 @@ CaseResult alone_case(const Scene& original, const RivalSubject& subject) {
     };
     const Image whole = draw(scene);
     const Image again = draw(scene);
+    // The whole target, as near as depth goes: what is left of it in a buffer hides what comes.
+    Scene near = scene;
+    near.draws.assign(1, {});
+    near.attributes.clear();
+    const double nearest_depth = scene.depth_test == DepthTest::less ? 0 : 1;
+    judge::add_triangle(near.draws[0], judge::over_all(scene.width, scene.height, nearest_depth),
+                        subject.terms.model.culled);
+    draw(near);
+    const Image after = draw(scene);
     std::vector<Image> alone;
     std::vector<std::uint32_t> identifiers;
     for (std::size_t t = 0; t < scene.draws[0].triangles.size(); ++t) {
@@ -414,7 +424,14 @@ CaseResult alone_case(const Scene& original, const RivalSubject& subject) {
       if (!whole.index.empty()) repeated = repeated && whole.index[s] == again.index[s];
       if (!whole.depth.empty()) repeated = repeated && same_bits(whole.depth[s], again.depth[s]);
       if (!repeated && result.differences++ == 0) result.finding = "drawn twice, the image is not the same";
-      if (!repeated) mark("values", s);
+      bool left_over = whole.count[s] != after.count[s];
+      if (!whole.index.empty()) left_over = left_over || whole.index[s] != after.index[s];
+      if (!whole.depth.empty()) left_over = left_over || !same_bits(whole.depth[s], after.depth[s]);
+      if (repeated && left_over && result.differences++ == 0) {
+        result.finding = fmt::format(
+            "sample {}: drawn after a frame with a near triangle over all of it, the image is not the same", s);
+      }
+      if (!repeated || left_over) mark("values", s);
       std::uint32_t covers = 0;
       std::size_t nearest = alone.size();
       bool tied = false;

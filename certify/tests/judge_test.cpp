@@ -255,6 +255,29 @@ TEST(Judge, RangesHoldAtOpenSamples) {
   }
 }
 
+// M5: a draw that writes no depth leaves what was there.
+TEST(Judge, DepthThatIsNotWrittenStays) {
+  Terms terms;
+  terms.known = true;
+  corpus::Scene scene = flat_scene(4, 4, {{{{0, 0}, {4, 0}, {0, 4}}}}, 0.5f);
+  scene.draws[0].depth_write = false;
+  corpus::Frame frame(scene, {true, true, true, false, false});
+  for (const float depth : {INFINITY, 0.5f}) {
+    corpus::Image image = frame.image();
+    const Frame seen{4, 4, 1, DepthTest::less, false, frame.draws()};
+    image.count = counts_under(adapters::oracle_expected(), terms, seen).least;
+    image.index.assign(16, kNoTriangle);
+    image.depth.assign(16, INFINITY);
+    for (std::size_t s = 0; s < 16; ++s) {
+      if (image.count[s] == 1) image.index[s] = 0, image.depth[s] = depth;
+    }
+    const Judgement judgement = judge_image(adapters::oracle_expected(), terms, seen, image, {}, {});
+    EXPECT_EQ(judgement.finding.rfind("depth, which is not written, at pixel", 0) == 0, depth == 0.5f)
+        << judgement.finding;
+    EXPECT_EQ(judgement.values.size(), judgement.differences);
+  }
+}
+
 // A depth that is clamped from outside of 0 to 1 is 0 or 1, which nothing accuses; another one is wrong.
 TEST(Judge, ClampedDepthsAreNotAccused) {
   Terms terms;

@@ -83,10 +83,16 @@ inline Draw one_triangle(const Draw& draw, std::size_t t) {
   return one;
 }
 
+// Lines and points stay together.
 inline std::vector<Draw> one_by_one(Draws draws) {
   std::vector<Draw> single;
-  for (const Draw& draw : draws)
+  for (const Draw& draw : draws) {
+    if (draw.primitive != Primitive::triangles) {
+      single.push_back(draw);
+      continue;
+    }
     for (std::size_t t = 0; 3 * t < draw.indices.size(); ++t) single.push_back(one_triangle(draw, t));
+  }
   return single;
 }
 
@@ -97,6 +103,7 @@ Status without(const Target& target, Draws draws, const Predicate& dropped) {
   std::vector<Draw> changed(draws.begin(), draws.end());
   for (std::size_t d = 0; d < draws.size(); ++d) {
     const Draw& draw = draws[d];
+    if (draw.primitive != Primitive::triangles) continue;
     for (std::size_t t = 0; 3 * t < draw.indices.size(); ++t) {
       if (dropped(draw, t)) continue;
       indices[d].insert(indices[d].end(), {draw.indices[3 * t], draw.indices[3 * t + 1], draw.indices[3 * t + 2]});

@@ -9,6 +9,8 @@ import { countShader, kWrongShaders, readShader, valuesShader, visibleShader } f
 
 // States that the adapter would set wrongly, for the tests: the self-check has to notice.
 export const kWrongStates = ["viewport", "scissor", "cull", "front-face", "depth-range", "depth-test", "flipped-y"];
+// A device that does not last: lost with every so many scenes.
+const kLostDevice = "lost-device", kLastsFor = 300;
 
 const kUsage = { mapRead: 1, copySource: 4, copyTarget: 8, vertex: 32, uniform: 64, storage: 128 };
 const kTexture = { copySource: 1, sampled: 4, attachment: 16 };
@@ -24,7 +26,7 @@ export async function openWebGPU({ gpu = globalThis.navigator?.gpu, powerPrefere
     requiredFeatures: features,
     requiredLimits: Object.fromEntries(wanted.map((limit) => [limit, adapter.limits[limit]])),
   });
-  if (wrong && ![...kWrongStates, ...kWrongShaders].includes(wrong)) throw new Unsupported(`no such fault: ${wrong}`);
+  if (wrong && ![...kWrongStates, ...kWrongShaders, kLostDevice].includes(wrong)) throw new Unsupported(`no such fault: ${wrong}`);
   return new WebGPUAdapter(device, adapter.info ?? {}, features, wrong);
 }
 
@@ -33,6 +35,7 @@ class WebGPUAdapter {
     this.device = device;
     this.wrong = wrong;
     this.wrongShader = "";  // from trust() on
+    this.lastsFor = wrong === kLostDevice ? kLastsFor : Infinity;
     this.isLost = false;
     this.clipControl = features.includes("depth-clip-control");
     this.cache = new Map();
@@ -149,6 +152,7 @@ class WebGPUAdapter {
     if (visible && !depthsWithinBuffer(scene)) throw new Unsupported("depths outside 0 to 1, which a depth buffer does not hold");
     if (scene.draws.some((draw) => draw.depthMode === DepthModes.clamp) && !this.clipControl) throw new Unsupported("depth clamping");
     this.used = [];
+    if (--this.lastsFor < 0) this.device.destroy();
     this.device.pushErrorScope("validation");
     this.device.pushErrorScope("out-of-memory");
     try {

@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -450,13 +451,14 @@ RivalSubject meet_rival(Rival& rival) {
   try {
     // One that dies on the first probe is asked for less, and once more: if it draws nothing, there is nothing to
     // judge.
-    for (bool probed = false; !probed;) {
+    for (std::optional<adapters::RivalFailure> failed;;) {
       try {
         subject.inference = adapters::infer_model(rival);
-        probed = true;
-      } catch (const adapters::RivalFailure&) {
-        if (rival.has_drawn() || rival.given_up() || draws_one_triangle(rival)) throw;
+        break;
+      } catch (const adapters::RivalFailure& failure) {
+        failed = failure;
       }
+      if (rival.has_drawn() || rival.given_up() || draws_one_triangle(rival)) throw *failed;
     }
   } catch (const adapters::RivalFailure& failure) {
     // The checks go on where it has drawn something: they have the scenes that show it.

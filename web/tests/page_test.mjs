@@ -97,6 +97,11 @@ try {
     await moved.context.close();
   }
 
+  // A device that is lost again and again is a finding, and the page goes on with new ones until it gives up.
+  const lost = await ran({ wrong: "lost-device", checks: "model,small-world-*" });
+  expect(/is not certified/.test(lost.verdict) && /the device was lost/.test(lost.detail), `lost-device: ${lost.verdict} ${lost.detail}`);
+  await lost.context.close();
+
   // One scene, by its name in the corpus and as text; and no scene.
   const scene = await ran({ scene: "cracks/drtk-9-diagonal-hole" });
   expect(/draws this scene as its model says: 64 samples judged, 0 open/.test(scene.verdict), `a scene: ${scene.verdict}`);

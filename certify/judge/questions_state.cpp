@@ -193,6 +193,72 @@ std::string about_scissor(const Questions& questions) {
   return "draws with a scissor are wrong, without it they are right";
 }
 
+namespace {
+
+// What is culled where a vertex is behind the eye.
+std::string about_culling_behind(const Questions& questions) {
+  constexpr int kFrames = 24, kSize = 16;
+  Random random(0xC0B);
+  int all = 0, wrong = 0;
+  for (int n = 0; n < kFrames; ++n) {
+    Scene scene = empty_scene(kSize, kSize);
+    std::array<SceneVertex, 3> c = plain_corners(random, kSize, kSize);
+    const SceneVertex& far = c[static_cast<std::size_t>(n % 3)];
+    c[static_cast<std::size_t>(n % 3)] = corner(far.x, far.y, 0.5, -1);
+    add_triangle(scene.draws[0], c);
+    const auto plain = answer(questions, scene);
+    if (!plain || differs(*plain)) return "";
+    scene.draws[0].cull = n % 2 == 0 ? Cull::front : Cull::back;
+    const auto culled = answer(questions, scene);
+    if (!culled) return "";
+    ++all;
+    wrong += differs(*culled);
+  }
+  if (2 * wrong < all) return "";
+  return "culling is wrong where a vertex is behind the eye (W <= 0): the facing is taken from the projected points as "
+         "they are";
+}
+
+// Where in the pixel depth is taken, by two ramps.
+std::string about_depth_of_samples(const Questions& questions) {
+  constexpr double kClear = 2;  // sixteenths
+  for (const int samples : {4, 8, 2, 16}) {
+    const auto n = static_cast<std::size_t>(samples);
+    std::array<std::vector<double>, 2> place;
+    for (std::size_t axis = 0; axis < 2; ++axis) {
+      Scene scene = empty_scene(4, 4);
+      scene.samples = samples;
+      add_triangle(scene.draws[0], {corner(0, 0, 0), corner(8, 0, axis == 0 ? 1 : 0), corner(0, 8, axis == 1 ? 1 : 0)},
+                   questions.model.culled);
+      const auto image = questions.rival(scene);
+      if (!image || image->depth.size() != 16 * n) break;
+      for (std::size_t s = 0; s < n; ++s) place[axis].push_back((8 * image->depth[(4 + 1) * n + s] - 1) * 16);
+    }
+    if (place[1].size() != n) continue;
+    const auto is = [&](const auto& of) {
+      for (std::size_t s = 0; s < n; ++s) {
+        const std::array<int, 2> at = of(sample_location(samples, static_cast<int>(s)));
+        if (!(std::abs(place[0][s] - at[0]) < kClear && std::abs(place[1][s] - at[1]) < kClear)) return false;
+      }
+      return true;
+    };
+    const auto right = [](const SampleLocation& at) { return std::array<int, 2>{at.x, at.y}; };
+    if (is(right)) continue;
+    if (is([](const SampleLocation&) { return std::array<int, 2>{8, 8}; })) {
+      return "with several samples a pixel depth is taken at the pixel's centre, for all of them";
+    }
+    if (is([](const SampleLocation& at) { return std::array<int, 2>{16 - at.x, at.y}; })) {
+      return "with several samples a pixel depth is taken at places that are mirrored: left is right";
+    }
+    if (is([](const SampleLocation& at) { return std::array<int, 2>{at.x, 16 - at.y}; })) {
+      return "with several samples a pixel depth is taken at places that are upside down";
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
 std::string about_culling(const Questions& questions) {
   if (questions.model.culled != Cull::none) return "";
   // Of each front face, what is culled, and the turn of the triangle: drawn?
@@ -249,6 +315,7 @@ std::string about_culling(const Questions& questions) {
     bool good = true;
     for (std::size_t i = 0; i < 12; ++i)
       good = good && drawn[i / 6][i / 2 % 3][i % 2] == form.of(i / 6, i / 2 % 3, i % 2);
+    if (good && &form == kForms) return about_culling_behind(questions);
     if (good) return form.text;
     if (&form == kForms) right = false;
   }
@@ -342,6 +409,10 @@ std::string clamping_text(const Ramp& ramp) {
   if (is_depth(ramp, [](double z) { return z; })) return "depth clamping does nothing: depths beyond 0 to 1 stay";
   if (is_depth(ramp, [](double z) { return std::clamp(z, -1.0, 1.0); }))
     return "depth is clamped to -1 to 1, not to 0 to 1";
+  // The corners' depths -1 and 5 as 0 and 1.
+  if (is_depth(ramp, [](double z) { return (z + 1) / 6; })) {
+    return "depth is clamped at the vertices, before it is interpolated, not at each sample";
+  }
   if (is_depth(ramp, [](double z) { return std::max(z, 0.0); })) return "depth is clamped at 0 alone, not at 1";
   if (is_depth(ramp, [](double z) { return std::min(z, 1.0); })) return "depth is clamped at 1 alone, not at 0";
   return "";
@@ -371,6 +442,9 @@ std::string about_depth_modes(const Questions& questions) {
 
 std::string about_samples(const Questions& questions) {
   if (questions.model.x.place != 0.5 || questions.model.y.place != 0.5) return "";
+  // A grid of 4 bits does not tell the places of edges below.
+  const auto coarse = [](const oracle::AxisModel& axis) { return axis.bits >= 0 && axis.bits < 5; };
+  if (coarse(questions.model.x) || coarse(questions.model.y)) return about_depth_of_samples(questions);
   for (const int samples : {2, 4, 8, 16}) {
     const auto n = static_cast<std::size_t>(samples);
     // How far to the right and down each sample of the pixel (1, 1) lies, in sixteenths.
@@ -435,7 +509,7 @@ std::string about_samples(const Questions& questions) {
                       static_cast<int>(s), got[s][0], got[s][1], right[s][0], right[s][1]);
     }
   }
-  return "";
+  return about_depth_of_samples(questions);
 }
 
 namespace {

@@ -48,9 +48,11 @@ export function sentences(certificate) {
     return ["good", `${rival.name} is certified: ${judged} checks, ${samples} samples, no difference.`, found];
   }
   if (verdict === "incomplete") return ["open", `Stopped: no difference in what was looked at of ${rival.name}.`, found];
-  const cause = rival.names[0] ?? rival.problems[0] ?? certificate.stopped;
+  // What ended the probing comes before what faults are like.
+  const ended = rival.problems.find((problem) => problem.startsWith("when probed"));
+  const cause = ended ?? rival.names[0] ?? rival.problems[0] ?? certificate.stopped;
   return ["bad", `${rival.name} is not certified: ${failed} of ${checks.length} checks found a difference.`,
-    cause ? `Likely: ${cause}. ${found}` : found];
+    cause ? `${ended ? "It fails" : "Likely"}: ${cause.replace(/\.$/, "")}. ${found}` : found];
 }
 
 function issueText(certificate) {

@@ -330,32 +330,39 @@ corpus::Scene reaching_scene(Random& random, const Model& model, double given, i
 void infer_band(Rival& rival, const Expected& expected, Inference& result) {
   constexpr int kFarthest = 1 << 13, kEdges = 24, kTimes = 8;
   Random random(0xBA4D);
-  // Less than an eighth of a step is what the step was found from wrongly.
+  // Less than an eighth of a step is what the step was found from wrongly, where that explains everything.
   const int bits = std::max(result.model.x.bits, result.model.y.bits);
   const double hair = std::ldexp(0.125, bits < 0 ? -16 : -bits);
   Model finer = result.model;
   finer.x.blur = std::max(finer.x.blur, hair), finer.y.blur = std::max(finer.y.blur, hair);
   std::vector<Probe> probes;
-  std::optional<double> band;
+  std::optional<double> band;  // from which distance on the model is wrong
+  bool cuts = false;           // no hair explains that
   try {
-    for (int distance = 2; distance <= kFarthest && !band; distance *= 2) {
+    for (int distance = 2; distance <= kFarthest && !cuts; distance *= 2) {
       for (int n = 0; n < kEdges; ++n) {
         const corpus::Scene scene = reaching_scene(random, result.model, rival.position_step(), distance, n);
         probes.push_back({scene, rival.draw(scene, covering(rival))});
         if (wrong_samples(expected, result.model, probes.back()) == 0) continue;
-        if (wrong_samples(expected, finer, probes.back()) > 0) band = distance / (2 * kTimes);
-        if (!band) result.model = finer;
+        if (!band) band = distance / (2 * kTimes);
+        cuts = cuts || wrong_samples(expected, finer, probes.back()) > 0;
       }
     }
   } catch (const Declined&) {
     // What it does not take says nothing of it.
   }
   if (!band) return;
-  Model model = result.model;
-  model.band = *band;
-  const bool explains = std::all_of(probes.begin(), probes.end(),
-                                    [&](const Probe& probe) { return wrong_samples(expected, model, probe) == 0; });
-  if (explains) result.model = model;
+  if (!cuts) {
+    result.model = finer;
+    return;
+  }
+  for (Model model : {result.model, finer}) {
+    model.band = *band;
+    const auto agrees = [&](const Probe& probe) { return wrong_samples(expected, model, probe) == 0; };
+    if (!std::all_of(probes.begin(), probes.end(), agrees)) continue;
+    result.model = model;
+    return;
+  }
 }
 
 // Blur until every probe agrees. Where edges go wrong by up to E pixels, a trial within E of its sample is answered

@@ -246,7 +246,9 @@ struct Along {
     if (axis.bits >= 0 && axis.rounding > oracle::Rounding::nearest_away) {
       const double nearest =
           axis.grid_offset + std::ldexp(std::nearbyint(std::ldexp(place - axis.grid_offset, axis.bits)), -axis.bits);
-      q = nearest - axis.moved + std::ldexp(axis.rounding == oracle::Rounding::ceiling ? -0.5 : 0.5, -axis.bits);
+      const bool up = axis.rounding == oracle::Rounding::ceiling ||
+                      (axis.rounding == oracle::Rounding::truncate && nearest < axis.grid_offset);
+      q = nearest - axis.moved + std::ldexp(up ? -0.5 : 0.5, -axis.bits);
     }
     return on_step(q * length / (length - axis.lacks), step);
   }
@@ -304,30 +306,44 @@ void draw_trials(Rival& rival, Inference& result, std::vector<Probe>& probes) {
   }
 }
 
-// A triangle with an edge through a sample, or past it by a hair, to a vertex so far beyond the target.
-corpus::Scene reaching_scene(Random& random, const Model& model, double given, int distance, int number) {
-  constexpr int kSize = 16;
+// A triangle with an edge to a vertex so far beyond the target, which comes as near to a sample as the grid lets it: of some
+// edges, all of them steeper than 45 degrees or none, the nearest one that the model has at least `beside` pixels from it.
+corpus::Scene reaching_scene(Random& random, const Model& model, double given, int distance, bool steep,
+                             double beside) {
+  constexpr int kSize = 16, kEdges = 64;
   const Along x{model.x, kSize}, y{model.y, kSize};
   const auto step = [](const AxisModel& axis) { return axis.bits < 0 ? 1.0 / 64 : std::ldexp(1.0, -axis.bits); };
-  const double sx = random.between(4, 11) + model.x.place, sy = random.between(4, 11) + model.y.place;
-  double dx = random.between(1, 60) * step(model.x), dy = random.between(1, 60) * step(model.y);
-  if (random.below(2) == 0) dx = -dx;
-  if (random.below(2) == 0) dy = -dy;
-  const double reach = std::max(std::abs(dx), std::abs(dy)), before = std::max(1.0, std::floor(2 / reach)),
-               behind = std::ceil((distance + kSize) / reach);
-  // A step aside where it ends.
-  const double aside_x = std::abs(dx) < std::abs(dy) ? (number % 3 - 1) * step(model.x) : 0,
-               aside_y = std::abs(dx) < std::abs(dy) ? 0 : (number % 3 - 1) * step(model.y);
-  const auto point = [&](double px, double py) { return Point{x.source(px, given), y.source(py, given)}; };
-  const FlatTriangle triangle{point(sx - before * dx, sy - before * dy),
-                              point(sx + behind * dx + aside_x, sy + behind * dy + aside_y),
-                              point(random.between(0, kSize), random.between(0, kSize))};
+  const double unit = std::max(step(model.x), step(model.y));
+  FlatTriangle triangle{};
+  double nearest = INFINITY;
+  for (int n = 0; n < kEdges; ++n) {
+    const double sx = random.between(4, 11) + model.x.place, sy = random.between(4, 11) + model.y.place;
+    double dx = random.between(1, 60) * unit, dy = random.between(1, 60) * unit;
+    if ((dx < dy) != steep) std::swap(dx, dy);
+    if (random.below(2) == 0) dx = -dx;
+    if (random.below(2) == 0) dy = -dy;
+    const double reach = std::max(std::abs(dx), std::abs(dy)), before = std::max(1.0, std::floor(2 / reach)),
+                 behind = std::ceil((distance + kSize) / reach);
+    const auto end = [&](double steps, double aside_x, double aside_y) {
+      return Point{x.source(sx + steps * dx + aside_x * step(model.x), given),
+                   y.source(sy + steps * dy + aside_y * step(model.y), given)};
+    };
+    const Point from = end(-before, 0, 0), to = end(behind, random.between(-2, 2), random.between(-2, 2));
+    const long double ax = placed(from.x, model.x, kSize) - sx, ay = placed(from.y, model.y, kSize) - sy,
+                      bx = placed(to.x, model.x, kSize) - sx, by = placed(to.y, model.y, kSize) - sy;
+    const auto away = static_cast<double>(std::abs(ax * by - ay * bx) / std::hypot(bx - ax, by - ay));
+    if (n > 0 && (away < beside || away >= nearest)) continue;
+    triangle = {from, to, {}};
+    nearest = away < beside ? INFINITY : away;
+  }
+  triangle[2] = {x.source(random.between(0, kSize), given), y.source(random.between(0, kSize), given)};
   return flat_scene(kSize, kSize, {seen(triangle, model.culled)});
 }
 
 // From which distance beyond the target on does it cut triangles (R9)? Where it does, the new vertex is moved to the grid, and
-// the edge passes the sample on either side; of edges some times as long as the part that is left one in a few shows it.
-void infer_band(Rival& rival, const Expected& expected, Inference& result) {
+// the edge passes the sample on either side; of edges some times as long as the part that is left one in a few shows it. So
+// it may do so from well before the distance that is found.
+void infer_band(Rival& rival, const Expected& expected, std::vector<Probe>& all, Inference& result) {
   constexpr int kFarthest = 1 << 13, kEdges = 24, kTimes = 8;
   Random random(0xBA4D);
   // Less than an eighth of a step is what the step was found from wrongly, where that explains everything.
@@ -335,16 +351,19 @@ void infer_band(Rival& rival, const Expected& expected, Inference& result) {
   const double hair = std::ldexp(0.125, bits < 0 ? -16 : -bits);
   Model finer = result.model;
   finer.x.blur = std::max(finer.x.blur, hair), finer.y.blur = std::max(finer.y.blur, hair);
+  // What blur and the owners of edges leave open says nothing; some edges pass through their sample, if there is no blur.
+  const double blur = 2 * blur_of(result.model), least = std::max(blur, 0x1p-30);
   std::vector<Probe> probes;
   std::optional<double> band;  // from which distance on the model is wrong
   bool cuts = false;           // no hair explains that
   try {
     for (int distance = 2; distance <= kFarthest && !cuts; distance *= 2) {
       for (int n = 0; n < kEdges; ++n) {
-        const corpus::Scene scene = reaching_scene(random, result.model, rival.position_step(), distance, n);
+        const corpus::Scene scene = reaching_scene(random, result.model, rival.position_step(), distance, n % 2 == 0,
+                                                   n % 3 == 0 ? blur : least);
         probes.push_back({scene, rival.draw(scene, covering(rival))});
         if (wrong_samples(expected, result.model, probes.back()) == 0) continue;
-        if (!band) band = distance / (2 * kTimes);
+        if (!band) band = distance < 4 * kTimes ? 0 : distance / (2 * kTimes);
         cuts = cuts || wrong_samples(expected, finer, probes.back()) > 0;
       }
     }
@@ -361,6 +380,7 @@ void infer_band(Rival& rival, const Expected& expected, Inference& result) {
     const auto agrees = [&](const Probe& probe) { return wrong_samples(expected, model, probe) == 0; };
     if (!std::all_of(probes.begin(), probes.end(), agrees)) continue;
     result.model = model;
+    all.insert(all.end(), probes.begin(), probes.end());  // a model without a band has to explain them, too
     return;
   }
 }
@@ -550,7 +570,7 @@ Inference infer_as_drawn(Rival& rival, const Expected& expected, const std::opti
     result.open.push_back(std::string("how small a triangle it draws: ") + reason.what());
   }
   const Inference whole = result;
-  if (result.offscreen) infer_band(rival, expected, result);
+  if (result.offscreen) infer_band(rival, expected, probes, result);
   draw_trials(rival, result, probes);
   settle(expected, probes, result);
   if (std::isfinite(result.model.band) && blur_of(result.model) > blur_of(whole.model)) {
@@ -585,7 +605,8 @@ Inference infer(Rival& rival, const Expected& expected, const std::optional<Mode
   Inference inner = infer_as_drawn(on_target, expected, declared);
   const bool clearer = !result.known || kClearer * blur_of(inner.model) <= blur_of(result.model);
   if (!inner.known || !inner.problems.empty() || !clearer) return result;
-  infer_band(rival, expected, inner);
+  std::vector<Probe> probes;
+  infer_band(rival, expected, probes, inner);
   if (!std::isfinite(inner.model.band)) return result;
   inner.offscreen = true;
   return inner;

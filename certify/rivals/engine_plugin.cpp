@@ -5,6 +5,7 @@
 // exact.
 #include <unistd.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -20,8 +21,9 @@ namespace {
 using namespace surefill;
 
 struct Instance {
-  std::string fault, error;
+  std::string fault, error = {};
   std::uint64_t draws = 0;
+  float farthest = std::numeric_limits<float>::infinity();  // depth of the frame before
 };
 
 std::string open_error;
@@ -61,6 +63,19 @@ int fault_before(Instance& instance, const surefill_adapter_scene& scene, const 
   return SUREFILL_ADAPTER_OK;
 }
 
+// The coarse depth buffer, of one cell, is that of the frame before, which nobody cleared.
+void hide_by_the_frame_before(Instance& instance, const surefill_adapter_scene& scene,
+                              const surefill_adapter_image& image, std::size_t total) {
+  if (!image.index || !image.depth || scene.depth_test != SUREFILL_ADAPTER_LESS) return;
+  const float farthest = *std::max_element(image.depth, image.depth + total);
+  for (std::size_t s = 0; s < total; ++s) {
+    if (!(image.depth[s] > instance.farthest)) continue;
+    image.index[s] = kNoTriangle;
+    image.depth[s] = std::numeric_limits<float>::infinity();
+  }
+  instance.farthest = farthest;
+}
+
 // The vertices of a draw by way of clip space; a rasterizer that has not read the header gets it wrong.
 std::vector<Vertex> from_clip_space(const surefill_adapter_draw& from, const std::string& fault) {
   Viewport viewport;
@@ -96,6 +111,7 @@ int draw(void* handle, const surefill_adapter_scene* scene, const surefill_adapt
   if (instance.fault == "chatter") std::puts("drawing");
   const Status status = render(frame.target(), frame.draws());
   if (instance.fault == "nan" && shows && image->depth) image->depth[0] = std::numeric_limits<float>::quiet_NaN();
+  if (instance.fault == "left-over") hide_by_the_frame_before(instance, *scene, *image, total);
   if (instance.fault == "forgetful" && image->count && ++instance.draws % 7 == 0) image->count[0] += 1;
   if (status == Status::ok) return SUREFILL_ADAPTER_OK;
   instance.error = status_text(status);
@@ -135,7 +151,7 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
     info->model.grid_bits = 8;
     info->model.profile = fault == "reports-vulkan" ? SUREFILL_ADAPTER_PROFILE_VULKAN : SUREFILL_ADAPTER_PROFILE_OPENGL;
   }
-  *handle = new Instance{fault, "", 0};
+  *handle = new Instance{fault};
   return SUREFILL_ADAPTER_OK;
 }
 

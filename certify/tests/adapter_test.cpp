@@ -168,6 +168,7 @@ TEST_F(Adapter, WhateverAPluginDoesIsAFinding) {
       {"nan", "nan"},
       {"unwritten", "depth"},
       {"forgetful", "drawn"},  // twice, or alone and together
+      {"left-over", "drawn after a frame with a near triangle over all of it, the image is not the same"},
       {"wrong-model", "it declares grid of 8 bits"},
   };
   for (const auto& [fault, finding] : faults) {

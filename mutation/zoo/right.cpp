@@ -129,9 +129,11 @@ std::vector<Vertex> cut(const std::vector<Vertex>& polygon, const Inside& inside
     const auto da = static_cast<Number>(inside(a)), db = static_cast<Number>(inside(b));
     if (da >= 0) part.push_back(a);
     if ((da < 0) == (db < 0)) continue;
-    // From the one that is inside: the other one may be larger by far.
-    const Vertex &from = da >= 0 ? a : b, &to = da >= 0 ? b : a;
-    const Number t = (da >= 0 ? da : db) / std::abs(da - db);
+    // From the smaller one: the other one may be larger by far, and then little of this one would be left.
+    const auto size = [](const Vertex& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.w)}); };
+    const bool from_a = size(a) <= size(b);
+    const Vertex &from = from_a ? a : b, &to = from_a ? b : a;
+    const Number t = std::abs(from_a ? da : db) / std::abs(da - db);
     const auto between = [t](double p, double q) {
       return static_cast<double>(static_cast<Number>(p) + t * (static_cast<Number>(q) - static_cast<Number>(p)));
     };
@@ -151,8 +153,7 @@ std::vector<Vertex> cut_polygon(const Choices& choices, const std::array<Vertex,
     keep([](const Vertex& v) { return v.w - v.z; });
   }
   if (choices[kBorder] == 0) return polygon;
-  // With a viewport of another size, only far away: the border then is at another place, too.
-  const double beyond = choices[kBorder] == 1 && choices[kViewport] != 1 ? 1 : 40;
+  const double beyond = cuts_beyond(choices);
   keep([=](const Vertex& v) { return v.x + beyond * v.w; });
   keep([=](const Vertex& v) { return (width + beyond) * v.w - v.x; });
   keep([=](const Vertex& v) { return v.y + beyond * v.w; });
@@ -335,7 +336,7 @@ std::string right_text(const Choices& c) {
          word(kTest, {", less", ", lequal"}) + word(kNear, {"", ", W above 1/64"}) +
          word(kFacing, {"", ", culls back", ", culls front"}) +
          word(kSlivers, {"", ", leaves out turned ones", ", leaves out small ones"}) +
-         word(kBorder, {"", ", cuts a pixel beyond the borders", ", cuts 40 pixels beyond"});
+         (c[kBorder] == 0 ? "" : ", cuts " + std::to_string(static_cast<int>(cuts_beyond(c))) + " pixels beyond");
 }
 
 bool draw_right(const Choices& choices, const surefill_adapter_scene& scene, const surefill_adapter_image& image) {

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,13 @@ std::string right_text(const Choices& choices);  // the choices in words
 // Whether it clips depth where a draw asks (SUREFILL_ADAPTER_DEPTH_CLIP).
 inline bool clips_where_asked(const Choices& choices) {
   return choices[kClip] == 3;
+}
+
+// Pixels beyond the target's borders from which on triangles are cut. With a viewport of another size only far away: the border
+// then is at another place, too.
+inline double cuts_beyond(const Choices& choices) {
+  constexpr double kNowhere = std::numeric_limits<double>::infinity();
+  return choices[kBorder] == 0 ? kNowhere : choices[kBorder] == 1 && choices[kViewport] != 1 ? 1 : 40;
 }
 
 // The scene is plain (adapter.h), but for depth clipping. False: not for this one.

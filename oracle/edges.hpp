@@ -38,6 +38,8 @@ struct Edges {
       d_magnitude += std::abs(m[c]) * magnitude[0][c];
     }
   }
+  // R8, R9: D is 0, or nearly so.
+  bool is_thin() const { return std::abs(d) <= 0x1p-20L * d_magnitude; }
   long double at(std::size_t i, double x, double y) const { return e[i][0] * x + e[i][1] * y + e[i][2]; }
   long double error(std::size_t i, double x, double y) const {
     return kRoundings * (magnitude[i][0] * std::abs(x) + magnitude[i][1] * std::abs(y) + magnitude[i][2]);

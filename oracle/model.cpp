@@ -14,8 +14,7 @@ namespace surefill::oracle {
 namespace {
 
 constexpr double kUnclear = 1.0 / 16;  // R9
-constexpr long double kThin = 0x1p-20L;
-constexpr float kMostDepth = 0x1p8f;  // between vertices
+constexpr float kMostDepth = 0x1p8f;   // between vertices
 
 struct Box {
   Interval x, y;
@@ -164,7 +163,7 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
   const bool kept = d == 0 ? area.all_zero() : d > 0 ? area.all_positive() : area.all_negative();
   // Who compares D with what came of it has D rounded, too.
   const Edges edges(t);
-  const bool unsure = (model.x.bits >= 0 || model.y.bits >= 0) && std::abs(edges.d) <= kThin * edges.d_magnitude &&
+  const bool unsure = (model.x.bits >= 0 || model.y.bits >= 0) && edges.is_thin() &&
                       (model.culled != Cull::none || model.turned != Turned::as_grid);
   const bool points = std::all_of(placed.boxes.begin(), placed.boxes.end(), [](const Box& b) { return b.is_point(); });
   if (kept && d == 0) {
@@ -243,7 +242,7 @@ class ClippedTriangle {
     }
     sign_ = sign_of_d(t);
     const auto [least, most] = std::minmax({t[0].w, t[1].w, t[2].w});
-    unsure_ = std::abs(edges_.d) <= kThin * edges_.d_magnitude || (placed.near && most > kMostDepth * least);
+    unsure_ = edges_.is_thin() || (placed.near && most > kMostDepth * least);
   }
 
   Cover at(double sx, double sy) const {

@@ -36,6 +36,8 @@ class Shape {
   // values_around and terms_around, of the sum of above_i over that of below_i.
   Values values(const std::array<double, 3>& above, const std::array<double, 3>& below, double x, double y,
                 const std::array<double, 2>& distance) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (edges_ && not_its_own(x, y, distance)) return {{-kInfinity, kInfinity}, 0};
     if (edges_) return values_around(*edges_, above, below, x, y, distance);
     return along(above, below, x, y, distance).values;
   }
@@ -46,6 +48,22 @@ class Shape {
   }
 
  private:
+  // R11: some have vertex 0's values there (G2), since the triangle itself covers nothing, but what a cut and the grid make of it may.
+  bool not_its_own(double x, double y, const std::array<double, 2>& distance) const {
+    if (in_front()) return false;
+    if (edges_->is_thin()) return true;
+    for (std::size_t i = 0; i < 3; ++i) {
+      bool somewhere = false;
+      for (const double dx : {-distance[0], distance[0]}) {
+        for (const double dy : {-distance[1], distance[1]}) {
+          somewhere = somewhere || edges_->at(i, x + dx, y + dy) * edges_->d < 0;
+        }
+      }
+      if (!somewhere) return false;
+    }
+    return true;
+  }
+
   struct Along {
     Values values;
     double terms;

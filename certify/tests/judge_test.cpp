@@ -10,6 +10,7 @@
 
 #include "certify/judge/images.hpp"
 #include "certify/judge/inference.hpp"
+#include "certify/judge/questions.hpp"
 #include "certify/judge/words.hpp"
 #include "certify/rivals/frame.hpp"
 #include "certify/rivals/model.hpp"
@@ -259,6 +260,32 @@ TEST(Judge, RangesHoldAtOpenSamples) {
     EXPECT_EQ(judgement.differences, *one.finding ? 1u : 0u);
     EXPECT_EQ(judgement.open, *one.finding ? 14u : 15u);  // one corner is out of reach
     EXPECT_EQ(judgement.samples + judgement.open, 16u);
+  }
+}
+
+// G2: where a triangle that is cut covers nothing itself, but what the grid makes of it does, values are those of vertex 0.
+TEST(Judge, ValuesOfVertexZeroAreGrantedWhereG2HasThem) {
+  const std::array<std::array<corpus::SceneVertex, 3>, 3> triangles{{
+      {{{16, -19, 0, 2, {}}, {-12, 14, 0, -2, {}}, {-36, 43, 0, -4, {}}}},  // D is 0
+      {{{0x1.c0784p+30f, -0x1.7e84p+31f, 0x1.70bp+23f, 0x1.70bp+24f, {}},   // and nearly so
+        {-0x1.63a34p+20f, 751820, -0x1.c8p+16f, -0x1.ca7ep+17f, {}},
+        {-0x1.c0734p+11f, 0x1.7e878p+12f, -0x1.703p+4f, -0x1.703p+5f, {}}}},
+      {{{0, 0, 0, 1, {}}, {4, 0, 0, 1, {}}, {0, -4, 0, -1, {}}}},  // an ordinary one
+  }};
+  for (const auto& triangle : triangles) {
+    corpus::Scene scene = empty_scene(1, 1);
+    add_triangle(scene.draws[0], triangle);
+    corpus::Frame frame(scene, {true, true, false, true, false});
+    corpus::Image image = frame.image();
+    image.count = {1};
+    image.index = {0};
+    image.barycentrics = {1, 0, 0};
+    Terms terms;
+    terms.known = true;
+    for (oracle::AxisModel* axis : {&terms.model.x, &terms.model.y}) axis->bits = 8;
+    const Judgement judgement = judge_image(adapters::oracle_expected(), terms,
+                                            {1, 1, 1, DepthTest::less, false, frame.draws()}, image, {}, {});
+    EXPECT_EQ(judgement.differences == 0, &triangle != &triangles[2]) << judgement.finding;
   }
 }
 

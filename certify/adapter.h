@@ -13,6 +13,7 @@
  *            (y * width + x) * samples + n. A null pointer is an output that is not asked for. Every buffer asked for
  *            is written whole; what no triangle covers holds count 0, index SUREFILL_ADAPTER_EMPTY, depth +infinity
  *            (-infinity for the test GREATER), or the initial depth where there is one, and 0 elsewhere (V1).
+ *            An array without elements may be null. Frames without draws and draws without triangles come, too.
  * Rules      docs/semantics.md; the letters in brackets are its rules.
  * Threads    Calls on one instance never overlap. Different instances may be used at once.
  * Versions   The layout below is version 1 and never changes; what is added gets another version.
@@ -46,15 +47,17 @@ enum {
 enum {
   SUREFILL_ADAPTER_BEHIND = 1 << 0,          /* vertices with W <= 0 */
   SUREFILL_ADAPTER_DRAWS = 1 << 1,           /* several draws onto one image (V3) */
-  SUREFILL_ADAPTER_SAMPLES = 1 << 2,         /* 2, 4, 8 and 16 samples a pixel at the standard places (S4) */
+  SUREFILL_ADAPTER_SAMPLES = 1 << 2,         /* 2, 4, 8 and 16 samples a pixel at the standard places (S4), or those
+                                                that are not declined */
   SUREFILL_ADAPTER_CULL = 1 << 3,            /* `cull` and `front_face` (F1, F2) */
   SUREFILL_ADAPTER_SCISSOR = 1 << 4,         /* `scissor` (M3) */
   SUREFILL_ADAPTER_DEPTH_CLIP = 1 << 5,      /* depth_mode clip (I5) */
   SUREFILL_ADAPTER_DEPTH_CLAMP = 1 << 6,     /* depth_mode clamp (I5) */
   SUREFILL_ADAPTER_DEPTH_GREATER = 1 << 7,   /* depth_test greater (V1) */
-  SUREFILL_ADAPTER_DEPTH_READ_ONLY = 1 << 8, /* depth_write 0 (M5) */
+  SUREFILL_ADAPTER_DEPTH_READ_ONLY = 1 << 8, /* depth_write 0: the last that passes is visible, depth stays (M5) */
   SUREFILL_ADAPTER_INITIAL_DEPTH = 1 << 9,   /* `initial_depth` (V1) */
-  SUREFILL_ADAPTER_IDENTIFIERS = 1 << 10,    /* identifiers in any order: equal depths go to the smaller one (V2) */
+  SUREFILL_ADAPTER_IDENTIFIERS = 1 << 10,    /* identifiers in any order, each once in a draw: of its equal depths the
+                                                smaller identifier is visible (V2) */
   SUREFILL_ADAPTER_NOPERSPECTIVE = 1 << 11,  /* attributes that are affine on the screen (I2) */
   SUREFILL_ADAPTER_FLAT = 1 << 12,           /* attributes of vertex 0 (I2) */
   SUREFILL_ADAPTER_CENTROID = 1 << 13,       /* attribute_location centroid (M1) */
@@ -62,7 +65,8 @@ enum {
   SUREFILL_ADAPTER_INNER = 1 << 15,          /* conservative, inner (M4) */
   SUREFILL_ADAPTER_FILL_RULES = 1 << 16,     /* takes the fill rule from each draw; else the model's is used (C3) */
   SUREFILL_ADAPTER_GRIDS = 1 << 17,          /* takes the grid from each draw; else the model's is used (section 6) */
-  SUREFILL_ADAPTER_NON_FINITE = 1 << 18      /* drops triangles with a NaN or an infinity, as B1 has it */
+  SUREFILL_ADAPTER_NON_FINITE = 1 << 18      /* drops triangles with a NaN or an infinity in a vertex or in any
+                                                attribute, asked for or not (B1) */
 };
 
 enum { SUREFILL_ADAPTER_FORM_PIXEL = 0, SUREFILL_ADAPTER_FORM_CLIP = 1 };
@@ -90,7 +94,7 @@ enum {
 };
 
 /* How precise depth and attributes are meant to be.
- * EXACT: rounded once (I4), compared with ==.
+ * EXACT, which a zeroed struct says: rounded once (I4), compared with ==.
  * The others grant the errors of their standard; the largest one seen is reported. */
 enum {
   SUREFILL_ADAPTER_PROFILE_EXACT = 0,
@@ -142,7 +146,7 @@ enum { SUREFILL_ADAPTER_PERSPECTIVE = 0, SUREFILL_ADAPTER_AFFINE = 1, SUREFILL_A
 typedef struct surefill_adapter_attribute {
   const float* values;    /* components floats a vertex */
   uint32_t components;    /* 1..4 */
-  uint32_t interpolation; /* perspective, noperspective (AFFINE) or flat (CONSTANT) */
+  uint32_t interpolation; /* perspective, noperspective (AFFINE) or flat (CONSTANT); draws may differ */
 } surefill_adapter_attribute;
 
 enum { SUREFILL_ADAPTER_CLOCKWISE = 0, SUREFILL_ADAPTER_COUNTER_CLOCKWISE = 1 }; /* of front faces: F1 */
@@ -166,7 +170,8 @@ typedef struct surefill_adapter_draw {
   const uint32_t* indices;
   const uint32_t* identifiers;
   const surefill_adapter_attribute* attributes; /* scene.attribute_count of them */
-  uint32_t clip_is_exact; /* 1: S3 maps `clip` to `pixel` bit for bit. 0: some vertex has no such clip form */
+  uint32_t clip_is_exact; /* 1: S3 maps `clip` to `pixel` bit for bit. 0: some vertex has no such clip form, and
+                             who says FORM_CLIP is not given the scene */
   float viewport_x, viewport_y, viewport_width, viewport_height, viewport_near, viewport_far; /* clip y is up */
   uint32_t viewport_depth_range; /* SUREFILL_ADAPTER_ZERO_TO_ONE or MINUS_ONE_TO_ONE */
   uint32_t fill_rule;

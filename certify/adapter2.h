@@ -47,7 +47,7 @@ typedef struct surefill_adapter2_info {
   uint64_t outputs;       /* SUREFILL_ADAPTER_COUNT, ... */
   uint64_t features;      /* SUREFILL_ADAPTER_BEHIND, ... */
   uint32_t primitives;    /* 0 is triangles, too */
-  uint32_t profile;       /* SUREFILL_ADAPTER_PROFILE_EXACT, ... */
+  uint32_t profile;       /* SUREFILL_ADAPTER_PROFILE_VULKAN, ...; 0 is EXACT, compared with == */
   uint32_t rows;          /* SUREFILL_ADAPTER_Y_DOWN, ... */
   uint32_t clip_depth;    /* SUREFILL_ADAPTER_ZERO_TO_ONE, ... */
   uint32_t reported_bits; /* of subpixel precision, that it reports; 0: none */

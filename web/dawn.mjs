@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { openWebGPU } from "./webgpu.mjs";
 
-const kSwiftShader = "/usr/lib/chromium/vk_swiftshader_icd.json";  // of Debian's chromium-common
+export const kSwiftShader = "/usr/lib/chromium/vk_swiftshader_icd.json";  // of Debian's chromium-common
 const root = fileURLToPath(new URL("..", import.meta.url));
 
 export const kDawnOptions = {

@@ -56,6 +56,13 @@ void main() {
   color = uvec4(texelFetch(seen, at, 0).r, floatBitsToUint(texelFetch(depths, at, 0).r), 0u, 0u);
 }`;
 
+// One of the four words of each pixel.
+function component(words, which) {
+  const part = new Uint32Array(words.length / 4);
+  for (let s = 0; s < part.length; ++s) part[s] = words[4 * s + which];
+  return part;
+}
+
 export async function openWebGL2({ powerPreference, wrong = "" } = {}) {
   if (typeof OffscreenCanvas === "undefined") throw new Unsupported("this browser has no WebGL2 off screen");
   const canvas = new OffscreenCanvas(1, 1);
@@ -134,6 +141,7 @@ class WebGL2Adapter {
   // The target of what follows, cleared.
   target(scene, format, depth) {
     const { gl } = this, colour = this.texture(scene, format), frame = gl.createFramebuffer();
+    this.frame = frame;
     this.used.push(() => gl.deleteFramebuffer(frame));
     gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
     gl.framebufferTexture2D(gl.FRAMEBUFFER, gl.COLOR_ATTACHMENT0, gl.TEXTURE_2D, colour, 0);
@@ -214,13 +222,26 @@ class WebGL2Adapter {
     gl.deleteSync(fence);
   }
 
-  async read(scene, Words, format, type) {
-    const { gl } = this;
+  // What was drawn last is to be read: `use` gets its words.
+  read(Words, format, type, use) {
+    this.readings.push({ frame: this.frame, Words, format, type, use });
+  }
+
+  // One wait for all of them: a browser takes milliseconds to hear that its GPU is done, and for each reading.
+  async readAll(scene) {
+    const { gl, readings } = this, count = 4 * scene.width * scene.height, buffer = gl.createBuffer();
+    this.used.push(() => gl.deleteBuffer(buffer));
+    gl.bindBuffer(gl.PIXEL_PACK_BUFFER, buffer);
+    gl.bufferData(gl.PIXEL_PACK_BUFFER, 4 * count * readings.length, gl.STREAM_READ);
+    readings.forEach(({ frame, format, type }, k) => {
+      gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+      gl.readPixels(0, 0, scene.width, scene.height, format, type, 4 * count * k);
+    });
     await this.finished();
     if (gl.isContextLost()) throw new Error("the context was lost");
-    const words = new Words(4 * scene.width * scene.height);
-    gl.readPixels(0, 0, scene.width, scene.height, format, type, words);
-    return words;
+    const all = new ArrayBuffer(4 * count * readings.length);
+    gl.getBufferSubData(gl.PIXEL_PACK_BUFFER, 0, new Uint8Array(all));
+    readings.forEach(({ Words, use }, k) => use(new Words(all, 4 * count * k, count)));
   }
 
   async draw(scene) {
@@ -238,6 +259,7 @@ class WebGL2Adapter {
       }
     }
     this.used = [];
+    this.readings = [];
     try {
       const image = await this.drawn(scene, visible, asked);
       const error = this.gl.getError();
@@ -256,10 +278,15 @@ class WebGL2Adapter {
       gl.blendFunc(gl.ONE, gl.ONE);
       const program = this.program(vertexShader(kNoValue, true), kCountShader);
       this.drawStream(scene, this.vertices(scene, { flatZ: true }), program);
-      const counts = await this.read(scene, Float32Array, gl.RGBA, gl.FLOAT);
-      found.counts = Uint32Array.from({ length: total }, (_, s) => counts[4 * s]);
+      this.read(Float32Array, gl.RGBA, gl.FLOAT, (counts) => (found.counts = component(counts, 0)));
     }
-    if (!visible) return imageOf(scene, { asked, total, ...found });
+    if (visible) this.drawVisible(scene, asked, found);
+    await this.readAll(scene);
+    return imageOf(scene, { asked, total, components: scene.components, ...found });
+  }
+
+  drawVisible(scene, asked, found) {
+    const { gl } = this;
     const depths = this.texture(scene, gl.DEPTH_COMPONENT32F);
     const seen = this.target(scene, gl.RGBA32UI, depths);
     gl.enable(gl.DEPTH_TEST);
@@ -271,21 +298,22 @@ class WebGL2Adapter {
     this.bind(reading, "depths", depths, 1);
     gl.disableVertexAttribArray(0), gl.disableVertexAttribArray(1), gl.disableVertexAttribArray(2);
     gl.drawArrays(gl.TRIANGLES, 0, 3);
-    const bits = await this.read(scene, Uint32Array, gl.RGBA_INTEGER, gl.UNSIGNED_INT);
-    found.numbers = Uint32Array.from({ length: total }, (_, s) => bits[4 * s]);
-    found.depths = Uint32Array.from({ length: total }, (_, s) => bits[4 * s + 1]);
-    await this.addValues(scene, stream, seen, asked, found);
-    return imageOf(scene, { asked, total, components: scene.components, identifiers: stream.identifiers, ...found });
+    this.read(Uint32Array, gl.RGBA_INTEGER, gl.UNSIGNED_INT, (bits) => {
+      found.numbers = component(bits, 0);
+      found.depths = component(bits, 1);
+    });
+    found.identifiers = stream.identifiers;
+    this.addValues(scene, stream, seen, asked, found);
   }
 
   // Barycentrics, then the attributes, sample by sample into found.values.
-  async addValues(scene, stream, seen, asked, found) {
+  addValues(scene, stream, seen, asked, found) {
     const { gl } = this, passes = [];
     if (asked(Outputs.barycentrics)) passes.push({ components: 3, attribute: -1, flat: false });
     if (asked(Outputs.attributes)) scene.components.forEach((components, attribute) => passes.push({ components, attribute }));
     found.stride = passes.reduce((sum, pass) => sum + pass.components, 0);
-    const values = new Float32Array(scene.width * scene.height * found.stride);
-    let at = 0;
+    const samples = scene.width * scene.height, values = new Float32Array(samples * found.stride);
+    let next = 0;
     for (const { components, attribute } of passes) {
       this.target(scene, gl.RGBA32F);
       // Draws may differ in their interpolation.
@@ -297,11 +325,13 @@ class WebGL2Adapter {
         this.bind(program, "seen", seen, 0);
         this.drawStream(scene, { ...stream, batches }, program, attribute);
       }
-      const read = await this.read(scene, Float32Array, gl.RGBA, gl.FLOAT);
-      for (let s = 0; s < scene.width * scene.height; ++s) {
-        for (let c = 0; c < components; ++c) values[s * found.stride + at + c] = read[4 * s + c];
-      }
-      at += components;
+      const at = next;
+      this.read(Float32Array, gl.RGBA, gl.FLOAT, (read) => {
+        for (let s = 0; s < samples; ++s) {
+          for (let c = 0; c < components; ++c) values[s * found.stride + at + c] = read[4 * s + c];
+        }
+      });
+      next += components;
     }
     found.values = new Uint32Array(values.buffer);
   }

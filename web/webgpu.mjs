@@ -14,6 +14,7 @@ const kLostDevice = "lost-device", kLastsFor = 300;
 
 const kUsage = { mapRead: 1, copySource: 4, copyTarget: 8, vertex: 32, uniform: 64, storage: 128 };
 const kTexture = { copySource: 1, sampled: 4, attachment: 16 };
+const kLongestWait = 16;  // milliseconds between two looks at a map
 const kColours = { 1: "r32uint", 4: "rg16uint" };
 
 export async function openWebGPU({ gpu = globalThis.navigator?.gpu, powerPreference, wrong = "" } = {}) {
@@ -255,6 +256,19 @@ class WebGPUAdapter {
     }
   }
 
+  // Firefox looks whether a map is there ten times a second, and with each submission: an empty one is what hastens it.
+  async arrival(mapped) {
+    let waits = true;
+    const done = mapped.finally(() => (waits = false));
+    for (let milliseconds = 1; waits && !this.isLost; milliseconds = Math.min(2 * milliseconds, kLongestWait)) {
+      this.device.queue.submit([]);
+      let timer;
+      await Promise.race([done, new Promise((next) => (timer = setTimeout(next, milliseconds)))]);
+      clearTimeout(timer);
+    }
+    await done;
+  }
+
   async readBack(encoder, outputs) {
     const words = outputs.reduce((sum, [, count]) => sum + count, 0);
     const staging = this.buffer(4 * words, kUsage.mapRead | kUsage.copyTarget);
@@ -264,7 +278,7 @@ class WebGPUAdapter {
       at += count;
     }
     this.device.queue.submit([encoder.finish()]);
-    await staging.mapAsync(1);
+    await this.arrival(staging.mapAsync(1));
     const all = new Uint32Array(staging.getMappedRange().slice(0));
     staging.unmap();
     at = 0;

@@ -69,7 +69,7 @@ try {
   await whole.page.screenshot({ path: join(values.out, "page-420.png"), fullPage: true });
   await whole.page.emulateMedia({ colorScheme: "dark" });
   await whole.page.screenshot({ path: join(values.out, "page-420-dark.png") });
-  await writeFile(join(values.out, "certificate.json"), whole.text);
+  await writeFile(join(values.out, "chromium-webgpu.json"), whole.text);
   const { seconds, waited, drawn, bytes } = whole.cost;
   console.log(`      ${seconds.toFixed(1)} s, of which the GPU and its driver ${waited.toFixed(1)} s for ${drawn} scenes; ${bytes} bytes`);
   await whole.context.close();
@@ -80,7 +80,7 @@ try {
   expect(/grid of 4 bits.*rows from the bottom/.test(other.certificate?.rival.inferred_model), `model: ${other.certificate?.rival.inferred_model}`);
   expect(other.errors.length === 0, `no errors on the page${other.errors.length ? `: ${other.errors.join("; ")}` : ""}`);
   await other.page.screenshot({ path: join(values.out, "webgl2-1200-dark.png"), fullPage: true });
-  await writeFile(join(values.out, "webgl2.json"), other.text);
+  await writeFile(join(values.out, "chromium-webgl2.json"), other.text);
   await other.context.close();
 
   for (const api of ["webgpu", "webgl2"]) {

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <limits>
@@ -86,6 +87,8 @@ std::vector<Vertex> from_clip_space(const surefill_adapter_draw& from, const std
   viewport.near_depth = from.viewport_near;
   viewport.far_depth = from.viewport_far;
   viewport.clip_depth = static_cast<ClipDepth>(from.viewport_depth_range);
+  if (fault == "clip-not-moved") viewport.x = std::min(viewport.x, 0.0f);
+  if (fault == "clip-even") viewport.width = 2 * std::floor(viewport.width / 2);
   if (fault == "clip-y-down") viewport.clip_y = ClipY::down;
   if (fault == "clip-depth-unmapped") viewport.clip_depth = ClipDepth::zero_to_one;
   std::vector<Vertex> vertices(from.vertex_count);

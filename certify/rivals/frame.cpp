@@ -159,6 +159,38 @@ ClipVertex clip_of(const Vertex& v, const Viewport& viewport) {
           static_cast<float>(depth), v.w};
 }
 
+// Is W a power of two, and is every number on the way along one axis a float32: from the centre of the viewport, and as a part of it?
+bool comes_exactly(float position, float w, double centre, double length) {
+  int exponent = 0;
+  if (!(w > 0) || !std::isfinite(w) || std::frexp(w, &exponent) != 0.5f) return false;
+  const double from_centre = position - centre * w, part = 2 * from_centre / length;
+  const bool is_difference = from_centre + centre * w == position && position - from_centre == centre * w;
+  return is_difference && static_cast<float>(from_centre) == from_centre && static_cast<float>(part) == part &&
+         part * length == 2 * from_centre && std::abs(part) <= w;
+}
+
+bool is_under(const Viewport& viewport, const Vertex& v) {
+  return finite(v) && comes_exactly(v.x, v.w, viewport.x + viewport.width / 2.0, viewport.width) &&
+         comes_exactly(v.y, v.w, viewport.y + viewport.height / 2.0, viewport.height);
+}
+
+// An ordinary one, if there is one that fits; one draw in four has a wide one all the same.
+Viewport viewport_of(const Target& target, const Draw& draw, const ClipForm& form) {
+  constexpr std::size_t kFewVertices = 64;
+  const Viewport wide = wide_viewport(target, draw.vertices, form);
+  if (form.wide || draw.primitive != Primitive::triangles || draw.vertices.empty() ||
+      draw.vertices.size() > kFewVertices)
+    return wide;
+  const std::uint32_t first = (std::bit_cast<std::uint32_t>(draw.vertices[0].x) * 0x9E3779B9u) >> 30;
+  for (std::uint32_t n = 0; n < 3 && first < 3; ++n) {
+    Viewport viewport = ordinary_viewports(target.width, target.height)[(first + n) % 3];
+    viewport.clip_depth = wide.clip_depth;
+    const auto fits = [&viewport](const Vertex& v) { return is_under(viewport, v); };
+    if (std::all_of(draw.vertices.begin(), draw.vertices.end(), fits)) return viewport;
+  }
+  return wide;
+}
+
 template <typename Value>
 Value* data_or_null(std::span<Value> values) {
   return values.empty() ? nullptr : values.data();
@@ -236,7 +268,7 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
     }
   }
   if (info.form == SUREFILL_ADAPTER_FORM_CLIP) {
-    const AdapterFrame frame(target, draws, clip_form(info));
+    const AdapterFrame frame(target, draws, clip_form(info, false));
     for (std::size_t d = 0; d < draws.size(); ++d) {
       if (!frame.scene().draws[d].clip_is_exact) return "vertices that have no exact clip form";
     }
@@ -244,8 +276,21 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
   return "";
 }
 
-ClipForm clip_form(const surefill_adapter_info& info) {
-  return {info.model.depth_range, info.max_width, info.max_height};
+ClipForm clip_form(const surefill_adapter_info& info, bool wide) {
+  return {info.model.depth_range, info.max_width, info.max_height, wide};
+}
+
+std::array<Viewport, 3> ordinary_viewports(int width, int height) {
+  const auto part = [](int x, int y, int across, int down) {
+    Viewport viewport;
+    viewport.x = static_cast<float>(x);
+    viewport.y = static_cast<float>(y);
+    viewport.width = static_cast<float>(std::max(across, 1));
+    viewport.height = static_cast<float>(std::max(down, 1));
+    return viewport;
+  };
+  return {part(0, 0, width, height), part(width / 5, height / 3, width - width / 5, height - height / 3 - height / 4),
+          part(width / 3, height / 6, width - width / 3 - width / 7, height - height / 6)};
 }
 
 AdapterFrame::AdapterFrame(const Target& target, std::span<const Draw> draws, const ClipForm& form)
@@ -258,7 +303,7 @@ AdapterFrame::AdapterFrame(const Target& target, std::span<const Draw> draws, co
     const std::size_t vertices = from.vertices.size(), triangles = from.indices.size() / corners_of(from.primitive);
     primitives_.push_back({static_cast<std::uint32_t>(from.primitive),
                            from.primitive == Primitive::triangles ? 0 : from.width.value_or(0)});
-    const Viewport viewport = wide_viewport(target, from.vertices, form);
+    const Viewport viewport = viewport_of(target, from, form);
     std::vector<ClipVertex> clip(vertices);
     std::vector<Vertex> back(vertices);
     std::transform(from.vertices.begin(), from.vertices.end(), clip.begin(),

@@ -5,6 +5,7 @@
 #ifndef SUREFILL_CERTIFY_ADAPTERS_FRAME_HPP
 #define SUREFILL_CERTIFY_ADAPTERS_FRAME_HPP
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -37,8 +38,13 @@ std::string what_is_lacking(const Target& target, std::span<const Draw> draws, c
 struct ClipForm {
   std::uint32_t depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE;
   std::uint32_t max_width = 0, max_height = 0;  // of the rival's targets; 0: no limit
+  bool wide = true;                             // no viewport is an ordinary one
 };
-ClipForm clip_form(const surefill_adapter_info& info);
+ClipForm clip_form(const surefill_adapter_info& info, bool wide);
+
+// Parts of a target of this size, as programs have viewports: all of it, and others at odd places. A draw has one of these where all of
+// its vertices lie in it and no float32 is rounded on the way from clip space, whoever computes it; else a wide one (frame.cpp).
+std::array<Viewport, 3> ordinary_viewports(int width, int height);
 
 // The frame in the adapter's form. The target's buffers are where the answer goes, directly. Target and draws are
 // valid, and outlive this object.

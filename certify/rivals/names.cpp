@@ -10,6 +10,7 @@
 #include "certify/judge/images.hpp"
 #include "certify/judge/symptoms.hpp"
 #include "certify/rivals/rival_checks.hpp"
+#include "certify/rivals/viewports.hpp"
 #include "mutation/zoo/zoo.hpp"
 #include "oracle/oracle.hpp"
 
@@ -184,6 +185,12 @@ std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::s
 
 std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const Scene> found) {
   constexpr std::size_t kMost = 3;
+  if (const std::string which = which_viewports(subject); !which.empty()) {
+    std::vector<std::string> sentences = subject.conventions;
+    sentences.push_back("it is only wrong under " + which);
+    return sentences;
+  }
+  const adapters::Rival::WideViewports wide(*subject.rival);
   const judge::Questions questions = questions_of(subject);
   const judge::Answers answers = judge::ask(questions, known_faults());
   std::vector<Scene> fine = answers.fine;

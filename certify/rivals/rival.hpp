@@ -88,6 +88,18 @@ class Rival {
     Rival& rival_;
   };
 
+  // While one lives, viewports are wide ones (frame.hpp): for whoever asks about anything else.
+  class WideViewports {
+   public:
+    explicit WideViewports(Rival& rival) : rival_(rival) { ++rival_.wide_viewports_; }
+    ~WideViewports() { --rival_.wide_viewports_; }
+    WideViewports(const WideViewports&) = delete;
+    WideViewports& operator=(const WideViewports&) = delete;
+
+   private:
+    Rival& rival_;
+  };
+
  private:
   std::unique_ptr<Process> take();
   [[noreturn]] void fail(const std::string& cause, bool died);
@@ -105,7 +117,7 @@ class Rival {
   std::string last_failure_;
   std::atomic<int> deaths_ = 0, failures_ = 0;  // a death is a failure, too
   std::atomic<int> timeouts_ = 0;               // all of them
-  std::atomic<int> uncounted_ = 0;
+  std::atomic<int> uncounted_ = 0, wide_viewports_ = 0;
   std::atomic<std::uint64_t> drawn_ = 0;
 };
 

@@ -15,6 +15,7 @@
 #include "certify/judge/words.hpp"
 #include "certify/rivals/line_checks.hpp"
 #include "certify/rivals/tilings_check.hpp"
+#include "certify/rivals/viewports.hpp"
 #include "properties/generators/generators.hpp"
 #include "properties/machinery/properties.hpp"
 
@@ -216,6 +217,12 @@ class List {
                  open.strict = false;
                  return judge_scene(scene, open, {true, false});
                });
+    if (subject_.rival->info().form == SUREFILL_ADAPTER_FORM_CLIP) {
+      add_scenes(kInvariants, "viewports", "S3",
+                 "under viewports of any place and size inside the target it draws what it draws under large ones",
+                 cases() * 2, viewport_scene,
+                 [](const Scene& scene, const RivalSubject& subject) { return judge_scene(scene, subject); });
+    }
     add_scenes(kInvariants, "alone", "T5, V1",
                "an image is what its triangles drawn alone make of it, to the bit, and the same when drawn again",
                cases() * 2, scene_for, alone_case);
@@ -448,6 +455,7 @@ RivalSubject meet_rival(Rival& rival) {
   if (!subject.declared) subject.reported_bits = rival.info().model.grid_bits;
   subject.inference.model = rival.info().model;
   subject.inference.judged.model = judge::least_known_model();
+  const Rival::WideViewports wide(rival);
   try {
     // One that dies on the first probe is asked for less, and once more: if it draws nothing, there is nothing to
     // judge.

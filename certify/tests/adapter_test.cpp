@@ -283,6 +283,13 @@ TEST_F(Adapter, ClipSpaceIsTold) {
   }
   EXPECT_EQ(certify("--only 'model,values' " + engine + "clip-y-down"), 1) << out;
   EXPECT_EQ(certify("--only values " + engine + "clip-depth-unmapped"), 1) << out;
+  // Viewports that begin inside the target, and odd ones.
+  EXPECT_EQ(certify("--only viewports " + engine + "clip"), 0) << out;
+  for (const char* fault : {"clip-not-moved", "clip-even"}) {
+    EXPECT_EQ(certify("--only viewports " + engine + fault), 1) << fault << "\n" << out;
+    EXPECT_TRUE(says("FAIL  viewports: ")) << fault << "\n" << out;
+    EXPECT_TRUE(says("it is only wrong under viewports ")) << fault << "\n" << out;
+  }
   EXPECT_LE(triangles_of("values"), 2u);
 }
 

@@ -308,7 +308,11 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
     return true;
   };
   // Where pixels or triangles are lost by their place, number or size, what else is asked would be about that.
-  if (say(about_repeats(questions)) || say(about_boxes(questions)) || say(about_pattern(questions))) return answers;
+  if (say(about_repeats(questions)) || say(about_ways_of_filling(questions)) || say(about_reach(questions)) ||
+      say(about_strides(questions)) || say(about_blocks(questions)) || say(about_boxes(questions)) ||
+      say(about_pattern(questions))) {
+    return answers;
+  }
   if (!questions.slow && say(about_many(questions))) return answers;
   Random random(0x91A1);
   int all = 0;
@@ -327,7 +331,10 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
     say(about_orders(questions));
     return answers;
   }
-  if (say(about_states_kept(questions)) || say(about_small(questions))) return answers;
+  if (say(about_states_kept(questions)) || say(about_small(questions)) || say(about_triangles_before(questions))) {
+    return answers;
+  }
+  if (!questions.slow && (say(about_precision(questions)) || say(about_slopes(questions)))) return answers;
   if (!questions.slow) {
     say(about_counts(questions));
     say(about_vertices(questions));
@@ -345,7 +352,7 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
   say(how_values_come(questions));
   say(about_visibility(questions));
   say(about_far(questions));
-  say(about_behind(questions, faults));
+  if (!say(about_perspective(questions)) && !say(about_eye(questions))) say(about_behind(questions, faults));
   say(about_not_numbers(questions));
   return answers;
 }

@@ -60,6 +60,15 @@ inline bool alike(float a, float b) {
 std::string how_values_come(const Questions& questions);
 
 // Each empty where all is right, or nothing is said.
+std::string about_ways_of_filling(const Questions& questions);
+std::string about_reach(const Questions& questions);
+std::string about_perspective(const Questions& questions);
+std::string about_eye(const Questions& questions);
+std::string about_blocks(const Questions& questions);
+std::string about_triangles_before(const Questions& questions);
+std::string about_strides(const Questions& questions);
+std::string about_precision(const Questions& questions);
+std::string about_slopes(const Questions& questions);
 std::string about_pattern(const Questions& questions);
 std::string about_boxes(const Questions& questions);
 std::string about_many(const Questions& questions);

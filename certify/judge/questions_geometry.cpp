@@ -157,13 +157,15 @@ std::string about_boxes(const Questions& questions) {
                          : "ends a pixel too early");
 }
 
-std::string about_pattern(const Questions& questions) {
-  constexpr int kWidth = 200, kHeight = 150;
+namespace {
+
+std::string pattern_of(const Questions& questions, int kWidth, int kHeight, const Corners& corners) {
   Scene scene = empty_scene(kWidth, kHeight);
-  add_triangle(scene.draws[0], over_all(kWidth, kHeight), questions.model.culled);
+  add_triangle(scene.draws[0], corners, questions.model.culled);
   const auto shown = answer(questions, scene);
   if (!shown) return "";
-  std::array<std::vector<int>, 2> wrong{std::vector<int>(kWidth, 0), std::vector<int>(kHeight, 0)};
+  std::array<std::vector<int>, 2> wrong{std::vector<int>(static_cast<std::size_t>(kWidth), 0),
+                                        std::vector<int>(static_cast<std::size_t>(kHeight), 0)};
   int all = 0, more = 0;
   std::array<int, 2> of_colour{};
   for (int y = 0; y < kHeight; ++y) {
@@ -199,6 +201,17 @@ std::string about_pattern(const Questions& questions) {
   return "";
 }
 
+}  // namespace
+
+// It is one of the target only if another triangle on another target has it, too.
+std::string about_pattern(const Questions& questions) {
+  std::string pattern = pattern_of(questions, 200, 150, over_all(200, 150));
+  if (pattern.empty()) return "";
+  constexpr int kWidth = 168, kHeight = 180;
+  const Corners other{corner(kWidth, kHeight), corner(-kWidth, kHeight), corner(kWidth, -kHeight)};
+  return pattern_of(questions, kWidth, kHeight, other) == pattern ? pattern : "";
+}
+
 std::string about_many(const Questions& questions) {
   constexpr int kAll = kCells * kCells;
   const auto one = questions.rival(board(1, questions.model.culled));
@@ -220,6 +233,19 @@ std::string about_many(const Questions& questions) {
     return which;
   }
   if (!lost.empty() && lost.size() < kAll) {
+    // The first so many of each tile are drawn.
+    for (const int n : {8, 16, 32, 64}) {
+      std::vector<int> room(static_cast<std::size_t>(2 * kCells / n * (2 * kCells / n)), 0), late = room;
+      for (int t = 0; t < kAll; ++t) {
+        const auto tile = static_cast<std::size_t>(2 * (t / kCells) / n * (2 * kCells / n) + 2 * (t % kCells) / n);
+        const bool gone = std::ranges::binary_search(lost, t);
+        room[tile] += !gone;
+        late[tile] += gone ? 1 : late[tile] > 0 ? kAll : 0;  // one that is drawn after a lost one
+      }
+      if (std::ranges::max(late) >= kAll || std::ranges::min(room) != std::ranges::max(room)) continue;
+      return text("a tile of %.0f pixels each way has room for %.0f triangles: further ones are lost there", n,
+                  room[0]);
+    }
     return text("of 4,096 small triangles side by side in one draw %.0f are lost, the first of them number %.0f",
                 static_cast<double>(lost.size()), lost.front());
   }
@@ -353,18 +379,16 @@ std::string about_counts(const Questions& questions) {
 
 // A draw of so many vertices.
 std::string about_vertices(const Questions& questions) {
-  for (const int before : {0, 300, 70000}) {
+  for (const int bits : {0, 8, 10, 12, 15, 16}) {
+    const int before = bits == 0 ? 0 : (1 << bits) + 50;
     Scene scene = empty_scene(16, 16);
     scene.draws[0].vertices.assign(static_cast<std::size_t>(before), corner(-8, -8));
     add_triangle(scene.draws[0], {corner(1.125, 1.25), corner(14.5, 2.125), corner(2.25, 14.625)},
                  questions.model.culled);
     const auto shown = answer(questions, scene);
-    if (!shown) continue;
-    if (shown->right.count != shown->rival.count) {
-      if (before == 0) return "";
-      return before == 300 ? "vertex numbers beyond 255 are taken for others: they have 8 bits"
-                           : "vertex numbers beyond 65,535 are taken for others: they have 16 bits";
-    }
+    if (!shown || shown->right.count == shown->rival.count) continue;
+    if (bits == 0) return "";
+    return text("vertex numbers beyond %.0f are taken for others: they have %.0f bits", (1 << bits) - 1, bits);
   }
   return "";
 }
@@ -395,6 +419,7 @@ std::string about_sizes(const Questions& questions) {
     std::vector<int> wrong, right;
     int first = 1 << 20;  // of the wrong ones, along the target
     bool lacks = true, exact = true, last = true;
+    std::vector<std::array<int, 2>> begins;  // of the wrong ones: length, where it begins
     const auto note = [&](const Wrong& shown, int length) {
       int begin = length;
       for (std::size_t s = 0; s < shown.right.count.size(); ++s) {
@@ -404,12 +429,13 @@ std::string about_sizes(const Questions& questions) {
       }
       exact = exact && (first == 1 << 20 || begin == first);
       last = last && begin == length - 1;
+      begins.push_back({length, begin});
       first = std::min(first, begin);
     };
     for (const int length :
-         {3,   5,   7,   8,    9,    12,   15,   16,   17,   20,   24,   31,   32,   33,   40,   48,
-          63,  64,  65,  96,   100,  127,  128,  129,  160,  200,  255,  256,  257,  300,  511,  512,
-          513, 640, 800, 1000, 1024, 1025, 1280, 2047, 2048, 2049, 3000, 4096, 4097, 8192, 8200, 16384}) {
+         {3,   5,   6,   7,   8,   9,    10,   12,   14,   18,   22,   34,   66,   130,  15,   16,   17,   20,   24,
+          31,  32,  33,  40,  48,  63,   64,   65,   96,   100,  127,  128,  129,  160,  200,  255,  256,  257,  300,
+          511, 512, 513, 640, 800, 1000, 1024, 1025, 1280, 2047, 2048, 2049, 3000, 4096, 4097, 8192, 8200, 16384}) {
       const auto shown = answer(questions, strip(length, upright, questions.model.culled));
       if (!shown) continue;
       const bool bad = shown->right.count != shown->rival.count;
@@ -419,6 +445,17 @@ std::string about_sizes(const Questions& questions) {
     if (wrong.empty() || right.size() < 3) continue;
     const char *side = upright ? "high" : "wide", *lines = upright ? "row" : "column";
     const auto all = [](const std::vector<int>& of, const auto& is) { return std::all_of(of.begin(), of.end(), is); };
+    if (lacks) {
+      for (const int m : {2, 4, 8, 16, 32, 64}) {
+        const auto odd = [m](int n) { return n % m != 0; };
+        const bool rest = std::ranges::all_of(begins, [m](const auto& b) { return b[1] >= b[0] / m * m; });
+        if (m > 2 && rest && all(wrong, odd) && std::none_of(right.begin(), right.end(), odd)) {
+          return "on targets whose " + std::string(upright ? "height" : "width") + " is no multiple of " +
+                 std::to_string(m) + " the last " + lines + "s, beyond the last whole group of " + std::to_string(m) +
+                 ", are not drawn";
+        }
+      }
+    }
     if (last && lacks) {
       for (const int m : {2, 4, 8, 16, 32, 64}) {
         const auto odd = [m](int n) { return n % m != 0; };
@@ -638,8 +675,11 @@ std::string about_behind(const Questions& questions, std::span<const Fault> faul
   if (!bad(0) && !bad(1)) return "";
   std::vector<Wrong> both = wrong[0];
   both.insert(both.end(), wrong[1].begin(), wrong[1].end());
+  // A likeness sees the wrong ones alone: it is one only if there are hardly any others.
   const std::vector<Name> names = name_fault(faults, both, 0x1p-8);
-  if (!names.empty() && names.front().agreement >= 0.9) return names.front().fault->sentence;
+  if (!names.empty() && names.front().agreement >= 0.9 && 10 * static_cast<int>(both.size()) >= 9 * (all[0] + all[1])) {
+    return names.front().fault->sentence;
+  }
   const char* who = bad(0) && bad(1) ? "triangles with a vertex behind the eye (W <= 0) "
                     : bad(0)         ? "triangles with one vertex behind the eye (W <= 0), not those with two, "
                                      : "triangles with two vertices behind the eye (W <= 0), not those with one, ";
@@ -654,39 +694,6 @@ std::string about_behind(const Questions& questions, std::span<const Fault> faul
                                    : "lack a part");
   if (each(more)) return std::string(who) + "cover what they should not";
   return std::string(who) + "are wrong";
-}
-
-// Not numbers.
-std::string about_not_numbers(const Questions& questions) {
-  int all = 0, drawn = 0, others = 0;
-  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
-    for (int which = 0; which < 4; ++which) {
-      Scene scene = empty_scene(16, 16);
-      Corners c{corner(1.125, 1.25), corner(6.5, 2.125), corner(2.25, 14.625)};
-      add_triangle(scene.draws[0], c, questions.model.culled);
-      Corners broken{corner(9.125, 1.25), corner(14.5, 2.125), corner(10.25, 14.625)};
-      (which == 0 ? broken[1].x : which == 1 ? broken[2].y : which == 2 ? broken[0].z : broken[1].w) = bad;
-      add_triangle(scene.draws[0], broken, questions.model.culled);
-      for (SceneVertex& v : c) v.x += 4;
-      add_triangle(scene.draws[0], c, questions.model.culled);
-      const auto image = questions.rival(scene);
-      const auto wanted = questions.right(scene);
-      if (!image || !wanted || image->count.empty()) continue;
-      ++all;
-      const std::size_t first = 4 * 16 + 2, last = 8 * 16 + 7;
-      const bool good = image->count[first] == wanted->count[first] && image->count[last] == wanted->count[last];
-      others += !good;
-      for (std::size_t s = 0; s < image->count.size(); ++s) {
-        if (wanted->count[s] != 0 || image->count[s] == 0) continue;
-        ++drawn;
-        break;
-      }
-    }
-  }
-  if (all < 4) return "";
-  if (drawn > 0) return "a triangle with a NaN or an infinity is drawn: it should cover nothing";
-  if (others > 0) return "a triangle with a NaN or an infinity takes other triangles with it";
-  return "";
 }
 
 }  // namespace surefill::judge

@@ -195,28 +195,54 @@ std::string about_scissor(const Questions& questions) {
 
 namespace {
 
-// What is culled where a vertex is behind the eye.
+// What is culled where one or two vertices are behind the eye.
 std::string about_culling_behind(const Questions& questions) {
   constexpr int kFrames = 24, kSize = 16;
   Random random(0xC0B);
-  int all = 0, wrong = 0;
+  std::array<int, 2> all{}, never{}, always{}, other{};
   for (int n = 0; n < kFrames; ++n) {
     Scene scene = empty_scene(kSize, kSize);
     std::array<SceneVertex, 3> c = plain_corners(random, kSize, kSize);
-    const SceneVertex& far = c[static_cast<std::size_t>(n % 3)];
-    c[static_cast<std::size_t>(n % 3)] = corner(far.x, far.y, 0.5, -1);
+    const auto two = static_cast<std::size_t>(n % 2);
+    for (std::size_t i = 0; i <= two; ++i) {
+      SceneVertex& v = c[(static_cast<std::size_t>(n / 2) + i) % 3];
+      v = corner(v.x, v.y, 0.5, -1);
+    }
     add_triangle(scene.draws[0], c);
     const auto plain = answer(questions, scene);
     if (!plain || differs(*plain)) return "";
-    scene.draws[0].cull = n % 2 == 0 ? Cull::front : Cull::back;
-    const auto culled = answer(questions, scene);
-    if (!culled) return "";
-    ++all;
-    wrong += differs(*culled);
+    if (std::ranges::count(plain->right.count, 0u) + 8 > kSize * kSize) continue;
+    std::array<bool, 2> wrong{}, drawn{};
+    for (const std::size_t i : {0u, 1u}) {
+      scene.draws[0].cull = i == 0 ? Cull::front : Cull::back;
+      const auto culled = answer(questions, scene);
+      const auto image = questions.rival(scene);  // as it is, samples near edges, too
+      if (!culled || !image) return "";
+      wrong[i] = differs(*culled);
+      drawn[i] = std::ranges::any_of(image->count, [](std::uint32_t k) { return k != 0; });
+    }
+    ++all[two];
+    never[two] += wrong[0] != wrong[1] && drawn[0] && drawn[1];
+    always[two] += wrong[0] != wrong[1] && !drawn[0] && !drawn[1];
+    other[two] += wrong[0] && wrong[1];
   }
-  if (2 * wrong < all) return "";
-  return "culling is wrong where a vertex is behind the eye (W <= 0): the facing is taken from the projected points as "
-         "they are";
+  const auto is = [&all](const std::array<int, 2>& n, std::size_t two) { return all[two] > 2 && n[two] == all[two]; };
+  if (is(never, 0) && is(never, 1)) return "triangles with a vertex behind the eye (W <= 0) are never culled";
+  if (is(always, 0) && is(always, 1)) {
+    return "with culling on, triangles with a vertex behind the eye (W <= 0) are not drawn, whichever way they face";
+  }
+  if (is(other, 0) && is(other, 1)) {
+    return "of triangles with a vertex behind the eye (W <= 0) the wrong ones are culled: front is taken for back "
+           "there";
+  }
+  if (is(other, 0) && other[1] == 0) {
+    return "culling is wrong where one vertex is behind the eye (W <= 0), and right where two are: the facing is taken "
+           "from "
+           "the projected points as they are, which turn over with each vertex there";
+  }
+  const int wrong = never[0] + never[1] + always[0] + always[1] + other[0] + other[1];
+  if (2 * wrong < all[0] + all[1] || wrong == 0) return "";
+  return "culling is wrong where a vertex is behind the eye (W <= 0)";
 }
 
 // Where in the pixel depth is taken, by two ramps.

@@ -5,6 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -193,6 +196,146 @@ TEST(Questions, CountTriangles) {
   }
 }
 
+// What becomes of triangles on the way to their samples, guessed.
+TEST(Questions, GuessWhatBecomesOfTriangles) {
+  using Corner = corpus::SceneVertex;
+  struct Case {
+    const char* says;
+    std::string (*ask)(const Questions& questions);
+    void (*change)(const Scene& scene, std::array<Corner*, 3> corners);
+    bool (*lost)(const Scene& scene, const std::array<Corner*, 3>& corners);
+    void (*after)(Image& image);
+  };
+  constexpr Case kCases[] = {
+      {"vertices beyond the target are clamped to its border", about_reach,
+       [](const Scene& s, std::array<Corner*, 3> c) {
+         for (Corner* v : c) {
+           v->x = std::clamp(v->x, 0.0f, static_cast<float>(s.width));
+           v->y = std::clamp(v->y, 0.0f, static_cast<float>(s.height));
+         }
+       },
+       nullptr, nullptr},
+      {"positions are clamped to -128 to 128 pixels", about_reach,
+       [](const Scene&, std::array<Corner*, 3> c) {
+         for (Corner* v : c) v->x = std::clamp(v->x, -128.0f, 128.0f), v->y = std::clamp(v->y, -128.0f, 128.0f);
+       },
+       nullptr, nullptr},
+      {"a triangle without a vertex on the target is not drawn", about_reach, nullptr,
+       [](const Scene& s, const std::array<Corner*, 3>& c) {
+         return std::all_of(c.begin(), c.end(), [&s](const Corner* v) {
+           return v->x < 0 || v->y < 0 || v->x > static_cast<float>(s.width) || v->y > static_cast<float>(s.height);
+         });
+       },
+       nullptr},
+      {"vertices behind the eye are divided by |W|", about_eye,
+       [](const Scene&, std::array<Corner*, 3> c) {
+         for (Corner* v : c) v->w = std::abs(v->w);
+       },
+       nullptr, nullptr},
+      {"with two vertices behind the eye (W <= 0) is not drawn at all; those with one are", about_eye, nullptr,
+       [](const Scene&, const std::array<Corner*, 3>& c) {
+         return std::count_if(c.begin(), c.end(), [](const Corner* v) { return v->w <= 0; }) == 2;
+       },
+       nullptr},
+      {"a W below 1 is taken for 1", about_perspective,
+       [](const Scene&, std::array<Corner*, 3> c) {
+         for (Corner* v : c) v->w = std::max(v->w, 1.0f);
+       },
+       nullptr, nullptr},
+      {"pixels are drawn in groups of 4 along a row", about_ways_of_filling, nullptr, nullptr, [](Image& i) {
+         const std::vector<std::uint32_t> was = i.count;
+         for (std::size_t s = 0; s < was.size(); ++s) {
+           const auto width = static_cast<std::size_t>(i.width), x = s % width / 4 * 4;
+           for (std::size_t k = x; k < std::min(x + 4, width); ++k) i.count[s] |= was[s / width * width + k];
+         }
+       }}};
+  for (const Case& one : kCases) {
+    const auto drawn = [&one](const Scene& scene) -> std::optional<Image> {
+      Scene changed = scene;
+      auto& vertices = changed.draws[0].vertices;
+      const std::array<Corner*, 3> corners{&vertices[0], &vertices[1], &vertices[2]};
+      if (one.change) one.change(scene, corners);
+      if (one.lost && one.lost(scene, corners)) changed.draws[0].triangles.clear();
+      Image image = right_image(changed);
+      if (one.after) one.after(image);
+      return image;
+    };
+    const auto right = [](const Scene& scene) { return std::optional(right_image(scene)); };
+    const std::string said = one.ask({drawn, right, {}, false});
+    EXPECT_NE(said.find(one.says), std::string::npos) << one.says << ": " << said;
+    EXPECT_EQ(one.ask({right, right, {}, false}), "") << one.says;
+  }
+}
+
+// What goes wrong by place and by order, far away and after other triangles.
+TEST(Questions, FindPlacesAndOrders) {
+  struct Case {
+    const char* says;
+    std::string (*ask)(const Questions& questions);
+    void (*before)(Scene& scene);
+    void (*after)(Image& image);
+  };
+  constexpr Case kCases[] = {
+      {"lost in blocks of 8 x 8 pixels of which it covers no corner", about_blocks, nullptr,
+       [](Image& i) {
+         for (std::size_t s = 0; s < i.count.size(); ++s) {
+           const auto width = static_cast<std::size_t>(i.width), x = s % width % 8, y = s / width % 8;
+           if (x % 7 != 0 || y % 7 != 0) i.count[s] = 0;
+         }
+       }},
+      {"the triangles of a draw that come after one wholly left of the target are lost", about_triangles_before,
+       [](Scene& s) {
+         SceneDraw& draw = s.draws[0];
+         for (std::size_t t = 0; t < draw.triangles.size(); ++t) {
+           const auto& v = draw.triangles[t].vertices;
+           if (std::any_of(v.begin(), v.end(),
+                           [&](auto k) { return draw.vertices[k].x > -1 || draw.vertices[k].w < 0; }))
+             continue;
+           draw.triangles.resize(t + 1);
+         }
+       },
+       nullptr},
+      {"the width rounded up to a multiple of 4, not as the width", about_strides, nullptr,
+       [](Image& i) {
+         std::vector<std::uint32_t> counts(i.count.size(), 0);
+         const auto width = static_cast<std::size_t>(i.width);
+         for (std::size_t s = 0; s < counts.size(); ++s) {
+           const std::size_t to = s / width * ((width + 3) / 4 * 4) + s % width;
+           if (to < counts.size()) counts[to] += i.count[s];
+         }
+         i.count = counts;
+       }},
+      {"1 / W has some 12 bits", about_precision,
+       [](Scene& s) {
+         for (corpus::SceneVertex& v : s.draws[0].vertices) {
+           int exponent = 0;
+           const double part = std::frexp(1.0 / v.w, &exponent);
+           const double over = std::ldexp(std::trunc(std::ldexp(part, 12)), exponent - 12);
+           v.x = static_cast<float>(v.x * over), v.y = static_cast<float>(v.y * over), v.w = 1;
+         }
+       },
+       nullptr},
+      {"an error of some 1/1024", about_slopes,
+       [](Scene& s) {
+         if (s.height < 2048) return;
+         for (corpus::SceneVertex& v : s.draws[0].vertices) v.x += v.y / 1024;
+       },
+       nullptr}};
+  for (const Case& one : kCases) {
+    const auto drawn = [&one](const Scene& scene) -> std::optional<Image> {
+      Scene changed = scene;
+      if (one.before) one.before(changed);
+      Image image = right_image(changed);
+      if (one.after) one.after(image);
+      return image;
+    };
+    const auto right = [](const Scene& scene) { return std::optional(right_image(scene)); };
+    const std::string said = one.ask({drawn, right, {}, false});
+    EXPECT_NE(said.find(one.says), std::string::npos) << one.says << ": " << said;
+    EXPECT_EQ(one.ask({right, right, {}, false}), "") << one.says;
+  }
+}
+
 // Of the right ones, of every third one here, nothing is said.
 TEST(Questions, SayNothingOfRightRasterizers) {
   for (std::size_t number = 0; number < zoo::right_rasterizers().size(); number += 3) {
@@ -236,6 +379,10 @@ TEST(Questions, SayNothingOfRightRasterizers) {
     const Answers answers = ask(questions, {});
     EXPECT_TRUE(answers.sentences.empty()) << zoo::right_text(choices) << ": " << answers.sentences.front();
     EXPECT_TRUE(answers.wrong.empty()) << zoo::right_text(choices);
+    const oracle::AxisModel &x = found.model.x, &y = found.model.y;
+    if (x.lacks != 0 || x.moved != 0 || y.lacks != 0 || y.moved != 0 || std::min(x.bits, y.bits) < 4) continue;
+    EXPECT_EQ(about_precision(questions), "") << zoo::right_text(choices);
+    EXPECT_EQ(about_slopes(questions), "") << zoo::right_text(choices);
   }
 }
 

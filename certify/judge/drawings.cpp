@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/judge/drawings.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace surefill::judge::drawings {
+
+namespace {
+
+// Is (x, y) in the triangle, or too near an edge to say?
+int cover(const Triangle& t, double x, double y) {
+  std::array<double, 3> e{};
+  double det = 0;
+  bool front = true, open = false;
+  for (const Point& p : t) front = front && p.w > 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point &p = t[(i + 1) % 3], &q = t[(i + 2) % 3];
+    const double a = p.y * q.w - p.w * q.y, b = p.w * q.x - p.x * q.w, c = p.x * q.y - p.y * q.x;
+    e[i] = a * x + b * y + c;
+    det += e[i] * t[i].w;
+    const double length = std::hypot(a, b);
+    if (length == 0 || std::abs(e[i]) >= (front ? 1.0 / 16 : 0.25) * length) continue;
+    if (front) {
+      const double px = p.x / p.w, py = p.y / p.w, dx = q.x / q.w - px, dy = q.y / q.w - py, far = std::hypot(dx, dy);
+      const double along = ((x - px) * dx + (y - py) * dy) / far;
+      if (!(along > -1.0 / 16 && along < far + 1.0 / 16)) continue;
+    }
+    open = true;
+  }
+  if (open) return kOpen;
+  return det != 0 && e[0] / det > 0 && e[1] / det > 0 && e[2] / det > 0 ? 1 : 0;
+}
+
+}  // namespace
+
+void paint(Drawing& to, const Triangle& t) {
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      to.counts[static_cast<std::size_t>(y * to.width + x)] += cover(t, x + to.place_x, y + to.place_y);
+    }
+  }
+}
+
+void paint_fan(Drawing& to, const Polygon& polygon, std::size_t most) {
+  for (std::size_t i = 1; i + 1 < std::min(polygon.size(), most); ++i)
+    paint(to, {polygon[0], polygon[i], polygon[i + 1]});
+}
+
+std::array<double, 4> box_of(const Triangle& t) {
+  std::array<double, 4> box{INFINITY, INFINITY, -INFINITY, -INFINITY};
+  for (const Point& p : t) {
+    const double x = divided(p.x, p), y = divided(p.y, p);
+    box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y)};
+  }
+  return box;
+}
+
+void scan_lines(const Triangle& t, Drawing& to, int how) {
+  Triangle v = t;
+  for (Point& p : v) p = at(divided(p.x, p), divided(p.y, p));
+  std::sort(v.begin(), v.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+  const auto row = [&to](double y) { return std::ceil(y - to.place_y); };
+  const double first = row(v[0].y), middle = row(v[1].y), last = row(v[2].y);
+  for (double y = std::max(first, 0.0); y < std::min<double>(last, to.height); ++y) {
+    const double centre = y + to.place_y;
+    const auto x_of = [&](const Point& p, const Point& q, bool bare) {
+      const double slope = (q.x - p.x) / (q.y - p.y), x = how == 4 && p == v[1] ? std::round(p.x) : p.x;
+      return x + slope * (bare ? y - row(p.y) : centre - p.y);
+    };
+    const double a = x_of(v[0], v[2], how == 0), b = y < middle ? x_of(v[0], v[1], how < 2) : x_of(v[1], v[2], how < 2);
+    const double low = std::min(a, b), high = std::max(a, b);
+    double begin = std::ceil(low - to.place_x), end = std::ceil(high - to.place_x);
+    if (how == 2) begin = std::floor(low), end = std::ceil(high);
+    if (how == 3 && end - begin == 1) continue;
+    if (how == 5) end = std::floor(high) + 1;
+    for (double x = std::max(begin, 0.0); x < std::min<double>(end, to.width); ++x) {
+      to.counts[static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width) + static_cast<std::size_t>(x)] += 1;
+    }
+    for (const double edge : {low, high}) {
+      for (double x = std::floor(edge) - 1; x <= std::floor(edge) + 1; ++x) {
+        const double turn = how == 2 || how == 5 ? 0 : to.place_x;
+        if (x < 0 || x >= to.width || std::abs(x + turn - edge) > 1.0 / 16) continue;
+        to.counts[static_cast<std::size_t>(y) * static_cast<std::size_t>(to.width) + static_cast<std::size_t>(x)] =
+            kOpen;
+      }
+    }
+  }
+}
+
+void unrejected_blocks(const Triangle& t, Drawing& to, int n) {
+  const double turn = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
+  const auto box = box_of(t);
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      double least = INFINITY;  // of the edges, how far inside of it the block reaches
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Point &p = t[i], &q = t[(i + 1) % 3];
+        double most = -INFINITY;
+        for (const int corner : {0, 1, 2, 3}) {
+          const double cx = x / n * n + corner % 2 * (n - 1) + to.place_x,
+                       cy = y / n * n + corner / 2 * (n - 1) + to.place_y;
+          most = std::max(most, ((q.x - p.x) * (cy - p.y) - (q.y - p.y) * (cx - p.x)) * (turn < 0 ? -1 : 1) /
+                                    std::hypot(q.x - p.x, q.y - p.y));
+        }
+        least = std::min(least, most);
+      }
+      const int x0 = x / n * n, y0 = y / n * n;
+      const bool reached = x0 <= std::floor(box[2]) && x0 + n > box[0] && y0 <= std::floor(box[3]) && y0 + n > box[1];
+      to.counts[static_cast<std::size_t>(y * to.width + x)] += std::abs(least) < 1.0 / 16 ? kOpen
+                                                               : least > 0 && reached     ? 1
+                                                                                          : 0;
+    }
+  }
+}
+
+}  // namespace surefill::judge::drawings

@@ -5,9 +5,15 @@
 const element = (id) => document.getElementById(id);
 const form = element("form"), options = new URLSearchParams(location.search);
 const kOptions = ["api", "level", "power", "seed", "checks"];
+const kSaidEvery = 20000;  // milliseconds between what a screen reader is told of progress
 let worker = null, told = {}, lines = [];
 
 for (const name of kOptions) if (options.has(name)) form.elements[name].value = options.get(name);
+
+// A button that waits keeps the focus: for who uses the keyboard, none is disabled.
+function wait(waits) {
+  for (const id of ["start", "draw"]) element(id).setAttribute("aria-disabled", waits);
+}
 
 function show(id, text) {
   element(id).textContent = text;
@@ -78,10 +84,17 @@ function showReport(html) {
     picture.setAttribute("role", "img");
     picture.setAttribute("aria-label", picture.closest("figure")?.querySelector("figcaption")?.textContent ?? "Where edges turn, as a picture");
   });
-  main.querySelectorAll(".wide").forEach((part) => {
+  main.querySelectorAll("th:empty").forEach((head) => head.replaceWith(document.createElement("td")));
+  // What scrolls sideways is reached by keyboard, too, and each such region has a name of its own.
+  const names = new Map();
+  let heading = "";
+  main.querySelectorAll("h2, h3, summary, pre, .wide").forEach((part) => {
+    if (!part.matches("pre, .wide")) return (heading = part.textContent);
     part.tabIndex = 0;
+    if (part.matches("pre")) return;
+    names.set(heading, (names.get(heading) ?? 0) + 1);
     part.setAttribute("role", "region");
-    part.setAttribute("aria-label", part.querySelector("table") ? "The checks" : "The table of turns");
+    part.setAttribute("aria-label", names.get(heading) > 1 ? `${heading}, ${names.get(heading)}` : heading);
   });
   element("report").replaceChildren(...main.children);
 }
@@ -111,7 +124,8 @@ function finish(cost) {
   worker.terminate();
   worker = null;
   element("running").hidden = element("stop").hidden = true;
-  element("start").disabled = element("draw").disabled = false;
+  wait(false);
+  show("said", "");
   if (cost.failed) return showOutcome("bad", "The page itself went wrong.", cost.failed);
   show("cost", `${cost.seconds.toFixed(1)} s, of which the GPU and its driver ${cost.waited.toFixed(1)} s for ${cost.drawn} scenes; ` +
     `${Math.round(cost.bytes / 1024)} KB of judge and corpus were loaded.`);
@@ -131,12 +145,12 @@ function start(scene = "") {
   lines = [];
   element("outcome").hidden = true;
   element("running").hidden = element("stop").hidden = false;
-  element("start").disabled = element("draw").disabled = true;
+  wait(true);
   element("progress").removeAttribute("value");
-  show("state", "Finding out by which rules it draws …");
+  for (const id of ["state", "said"]) show(id, "Finding out by which rules it draws …");
   document.documentElement.dataset.state = "running";
   const begin = performance.now();
-  let said = 0;
+  let shown = 0, said = begin;
   worker = new Worker(new URL("worker.mjs", import.meta.url), { type: "module" });
   worker.onerror = (event) => finish({ failed: event.message || "the worker did not start" });
   worker.onmessage = ({ data }) => {
@@ -147,11 +161,9 @@ function start(scene = "") {
     }
     if (data.progress) {
       element("progress").value = data.progress[2];
-      // A screen reader is told now and then.
-      if (performance.now() - said > 1000) {
-        said = performance.now();
-        show("state", progressText(begin, data.progress));
-      }
+      const now = performance.now(), text = progressText(begin, data.progress);
+      if (now - shown > 1000) show("state", text), (shown = now);
+      if (now - said > kSaidEvery) show("said", text), (said = now);
     }
     if (data.done || data.failed) finish(data.done ?? data);
   };
@@ -172,7 +184,7 @@ element("scene-form").addEventListener("submit", (event) => {
 element("example").addEventListener("change", (event) => (element("scene").value = event.target.value));
 element("stop").addEventListener("click", () => {
   worker?.postMessage({ stop: true });
-  show("state", "Stopping …");
+  for (const id of ["state", "said"]) show(id, "Stopping …");
 });
 element("save").addEventListener("click", () => download("surefill-certificate.json", told.certificate, "application/json"));
 element("save-report").addEventListener("click", () => download("surefill-report.html", told.report, "text/html"));

@@ -51,6 +51,14 @@ async function ran(options, { width = 1200, scheme = "light", seconds = 600 } = 
   return { page, context, verdict, detail, focus, text, certificate: JSON.parse(text), cost, errors };
 }
 
+// What axe-core (npm) finds against accessibility.
+const axe = await readFile(createRequire(join(values.tools, "/")).resolve("axe-core/axe.min.js"), "utf8");
+async function accessible(page, what) {
+  await page.evaluate(axe);
+  const found = await page.evaluate(async () => (await globalThis.axe.run(document)).violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`));
+  expect(found.length === 0, `accessible, ${what}${found.length ? `: ${found.join("; ").slice(0, 600)}` : ""}`);
+}
+
 const fits = (page) => page.evaluate(() => document.documentElement.scrollWidth <= innerWidth);
 
 try {
@@ -63,11 +71,14 @@ try {
   expect(await fits(whole.page), "the page is as wide as the window, at 1200 px");
   expect((await whole.page.locator("#report svg").count()) > 1, "there are pictures");
   expect(whole.focus === "verdict", "the verdict has the focus");
+  await accessible(whole.page, "a verdict at 1200 px");
   await whole.page.screenshot({ path: join(values.out, "page-1200.png"), fullPage: true });
   await whole.page.setViewportSize({ width: 420, height: 900 });
   expect(await fits(whole.page), "the page is as wide as the window, at 420 px");
   await whole.page.screenshot({ path: join(values.out, "page-420.png"), fullPage: true });
   await whole.page.emulateMedia({ colorScheme: "dark" });
+  await whole.page.evaluate(() => document.querySelectorAll("details").forEach((part) => (part.open = true)));
+  await accessible(whole.page, "a verdict at 420 px, dark, all open");
   await whole.page.screenshot({ path: join(values.out, "page-420-dark.png") });
   await writeFile(join(values.out, "chromium-webgpu.json"), whole.text);
   const { seconds, waited, drawn, bytes } = whole.cost;
@@ -119,12 +130,18 @@ try {
   // By keyboard alone.
   const context = await browser.newContext();
   const page = await context.newPage();
-  await page.goto(`${server.address}/index.html?checks=model`);
+  await page.goto(`${server.address}/index.html`);
   await page.keyboard.press("Tab");
   expect((await page.evaluate(() => document.activeElement.id)) === "start", "the first stop of the keyboard is the button");
+  await accessible(page, "at the start");
+  await page.keyboard.press("Enter");
+  await accessible(page, "while it runs");
+  await page.keyboard.press("Tab");
+  expect((await page.evaluate(() => document.activeElement.id)) === "stop", "the next stop of the keyboard, while it runs, is the one to end it");
   await page.keyboard.press("Enter");
   await page.waitForFunction(() => document.documentElement.dataset.state === "done", null, { timeout: 120000 });
-  expect(true, "it runs by keyboard");
+  const stopped = await page.textContent("#verdict");
+  expect(/^Stopped/.test(stopped), `it is started and ended by keyboard: ${stopped}`);
   await context.close();
 } finally {
   await browser.close();

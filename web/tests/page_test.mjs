@@ -77,9 +77,9 @@ try {
   expect(await fits(whole.page), "the page is as wide as the window, at 420 px");
   await whole.page.screenshot({ path: join(values.out, "page-420.png"), fullPage: true });
   await whole.page.emulateMedia({ colorScheme: "dark" });
+  await whole.page.screenshot({ path: join(values.out, "page-420-dark.png") });
   await whole.page.evaluate(() => document.querySelectorAll("details").forEach((part) => (part.open = true)));
   await accessible(whole.page, "a verdict at 420 px, dark, all open");
-  await whole.page.screenshot({ path: join(values.out, "page-420-dark.png") });
   await writeFile(join(values.out, "chromium-webgpu.json"), whole.text);
   const { seconds, waited, drawn, bytes } = whole.cost;
   console.log(`      ${seconds.toFixed(1)} s, of which the GPU and its driver ${waited.toFixed(1)} s for ${drawn} scenes; ${bytes} bytes`);

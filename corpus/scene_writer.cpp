@@ -2,14 +2,44 @@
 //
 // The writer of the scene format (docs/scene-format.md).
 #include <algorithm>
-#include <charconv>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <string>
+#include <string_view>
 
 #include "corpus/draw_fields.hpp"
 #include "corpus/scene.hpp"
 
 namespace surefill::corpus {
 namespace {
+
+// A finite multiple of 1/16, exactly, where that takes at most six characters; else "".
+std::string short_decimal(float value) {
+  const float size = std::fabs(value);
+  if (!(size < 1e6F) || size * 16 != std::floor(size * 16)) return "";
+  const auto sixteenths = static_cast<std::uint32_t>(size * 16);
+  std::string text = (std::signbit(value) ? "-" : "") + std::to_string(sixteenths / 16);
+  if (sixteenths % 16 != 0) text += '.';
+  for (std::uint32_t rest = sixteenths % 16 * 625, unit = 1000; rest != 0; rest %= unit, unit /= 10) {
+    text += static_cast<char>('0' + rest / unit);
+  }
+  return text.size() <= 6 ? text : "";
+}
+
+// Of a finite value: six hexadecimal digits at most, and below 2^-126 no leading 1.
+std::string hexfloat(float value) {
+  const std::uint32_t bits = std::bit_cast<std::uint32_t>(std::fabs(value));
+  const int exponent = std::max(static_cast<int>(bits >> 23), 1) - 127;
+  std::string text = std::signbit(value) ? "-0x" : "0x";
+  text += bits >> 23 != 0 ? '1' : '0';
+  std::uint32_t fraction = bits << 9;
+  if (fraction != 0) text += '.';
+  for (; fraction != 0; fraction <<= 4) text += "0123456789abcdef"[fraction >> 28];
+  text += exponent < 0 ? "p-" : "p+";
+  return text + std::to_string(std::abs(exponent));
+}
 
 class Writer {
  public:
@@ -156,19 +186,10 @@ class Writer {
 
   // Multiples of 1/16 of at most six characters are written as decimals, which then are exact; the rest as hexfloats.
   void append(float value) {
-    constexpr std::ptrdiff_t kShort = 6;
     if (std::isnan(value)) return append(std::string_view("nan"));
     if (std::isinf(value)) return append(std::string_view(value < 0 ? "-inf" : "inf"));
-    std::array<char, 64> buffer{};
-    char* const begin = buffer.data();
-    char* end = nullptr;
-    if (std::fabs(value) < 1e6F && value * 16 == std::floor(value * 16)) {
-      end = std::to_chars(begin, begin + buffer.size(), value, std::chars_format::fixed).ptr;
-    }
-    if (end != nullptr && end - begin <= kShort) return append(std::string_view(begin, end));
-    end = std::to_chars(begin, begin + buffer.size(), std::fabs(value), std::chars_format::hex).ptr;
-    append(std::string_view(std::signbit(value) ? "-0x" : "0x"));
-    text_.append(begin, end);
+    const std::string decimal = short_decimal(value);
+    append(std::string_view(decimal.empty() ? hexfloat(value) : decimal));
   }
 
   std::string text_;

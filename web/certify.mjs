@@ -9,11 +9,11 @@
 import { readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { parseArgs } from "node:util";
-import { gunzipSync } from "node:zlib";
 import { fileURLToPath } from "node:url";
 import { Conversation } from "./conversation.mjs";
 import { dawn, kDawnOptions } from "./dawn.mjs";
 import { Judge } from "./judge.mjs";
+import { unpackLzma } from "./lzma.mjs";
 
 const { values } = parseArgs({
   options: {
@@ -28,16 +28,16 @@ const { values } = parseArgs({
   },
 });
 try {
-  const file = async (name) => gunzipSync(await readFile(join(values.folder, name)));
+  const file = async (name) => unpackLzma(await readFile(join(values.folder, name)));
   const conversation = new Conversation(await dawn(values));
-  const judge = await Judge.open(await file("judge.wasm.gz"), {
+  const judge = await Judge.open(await file("judge.wasm.lzma"), {
     ask: (...request) => conversation.ask(...request),
     tell: (what, text) => {
       if (what === "line" || what === "verdict") process.stdout.write(text);
       if (what === "unopened" || what === "error") console.error(text);
     },
   });
-  judge.addCorpus((await file("corpus.txt.gz")).toString());
+  judge.addCorpus(new TextDecoder().decode(await file("corpus.txt.lzma")));
   const start = performance.now();
   const told = values.scene
     ? await judge.judgeScene({ scene: await readFile(values.scene, "utf8") })

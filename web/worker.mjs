@@ -4,21 +4,19 @@
 // share] }, { told: [what, text] } (judge.mjs), and at the end { done: { seconds, waited, drawn, bytes } } or { failed: text }.
 import { Conversation } from "./conversation.mjs";
 import { Judge } from "./judge.mjs";
+import { unpackLzma } from "./lzma.mjs";
 import { openWebGL2 } from "./webgl2.mjs";
 import { openWebGPU } from "./webgpu.mjs";
 
 const kAdapters = { webgpu: openWebGPU, webgl2: openWebGL2 };
 let judge = null, stopped = false, bytes = 0;
 
-// A file that is compressed, whether the host says so, in which case the browser has undone it, or not.
 async function file(name) {
   const response = await fetch(new URL(name, import.meta.url));
   if (!response.ok) throw new Error(`${name} did not come: ${response.status} ${response.statusText}`);
-  const content = await response.arrayBuffer();
-  bytes += content.byteLength;
-  const [first, second] = new Uint8Array(content, 0, 2);
-  if (first !== 0x1f || second !== 0x8b) return content;
-  return new Response(new Blob([content]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  const content = new Uint8Array(await response.arrayBuffer());
+  bytes += content.length;
+  return unpackLzma(content);
 }
 
 async function run(options) {
@@ -26,12 +24,12 @@ async function run(options) {
   const open = kAdapters[options.api];
   if (!open) throw new Error(`no such interface: ${options.api}`);
   const conversation = new Conversation(() => open({ powerPreference: options.power || undefined, wrong: options.wrong }));
-  judge = await Judge.open(await file("judge.wasm.gz"), {
+  judge = await Judge.open(await file("judge.wasm.lzma"), {
     ask: (...request) => conversation.ask(...request),
     tell: (...told) => postMessage({ told }),
     progress: (...progress) => postMessage({ progress }),
   });
-  const corpus = judge.addCorpus(new TextDecoder().decode(await file("corpus.txt.gz")));
+  const corpus = judge.addCorpus(new TextDecoder().decode(await file("corpus.txt.lzma")));
   if (stopped) judge.stop();
   const start = performance.now();
   if (options.scene) {

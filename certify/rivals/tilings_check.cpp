@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
 #include "certify/judge/plane.hpp"
@@ -119,30 +120,34 @@ class Sizes {
   explicit Sizes(const RivalSubject& subject) : subject_(subject) {}
 
   Size largest() {
-    std::call_once(once_, [this] {
-      const surefill_adapter_info& info = subject_.rival->info();
-      size_ = subject_.slow ? kSmall : info.form == SUREFILL_ADAPTER_FORM_CLIP ? kLarge : kMiddle;
-      if (subject_.slow) {
-        const auto start = std::chrono::steady_clock::now();
-        try {
-          (void)counts_of(*subject_.rival, mesh(1, kSmall, true, false));
-          const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-          // Some fifty times the samples, and no more triangles.
-          if (seconds < 0.01) size_ = kMiddle;
-        } catch (const std::exception&) {
-          // The check itself says what came of it.
-        }
-      }
-      if (info.max_width != 0) size_.width = std::min(size_.width, static_cast<int>(info.max_width));
-      if (info.max_height != 0) size_.height = std::min(size_.height, static_cast<int>(info.max_height));
-    });
-    return size_;
+    const std::unique_lock<std::mutex> lock(mutex_);
+    if (!size_.has_value()) size_ = measured();
+    return *size_;
   }
 
  private:
+  Size measured() {
+    const surefill_adapter_info& info = subject_.rival->info();
+    Size size = subject_.slow ? kSmall : info.form == SUREFILL_ADAPTER_FORM_CLIP ? kLarge : kMiddle;
+    if (subject_.slow) {
+      const auto start = std::chrono::steady_clock::now();
+      try {
+        (void)counts_of(*subject_.rival, mesh(1, kSmall, true, false));
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        // Some fifty times the samples, and no more triangles.
+        if (seconds < 0.01) size = kMiddle;
+      } catch (const std::exception&) {
+        // The check itself says what came of it.
+      }
+    }
+    if (info.max_width != 0) size.width = std::min(size.width, static_cast<int>(info.max_width));
+    if (info.max_height != 0) size.height = std::min(size.height, static_cast<int>(info.max_height));
+    return size;
+  }
+
   const RivalSubject& subject_;
-  std::once_flag once_;
-  Size size_ = kSmall;
+  std::mutex mutex_;
+  std::optional<Size> size_;
 };
 
 Scene mesh_of_case(const Size& size, std::uint64_t number, std::uint64_t seed) {

@@ -22,7 +22,7 @@ namespace surefill::certify {
 
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::ordered_json;  // the certificate's
 
 void tell(SurefillTold kind, const std::string& text) {
   surefill_tell(kind, text.data(), text.size());
@@ -143,7 +143,7 @@ void judge_one(double seconds, const char* text) {
   const corpus::Scene under = adapters::scene_under_model(scene, rival.info());
   const Evidence evidence = gather_evidence(under, adapters::model_renderer(rival), adapters::rival_renderer(rival));
   if (evidence.width > 0) tell(kToldReport, scene_pictures(evidence, corpus::write_scene(under), rival.info().name));
-  tell(kToldVerdict, json{{"rival", rival.info().name},
+  tell(kToldVerdict, Json{{"rival", rival.info().name},
                           {"model", facts_of(rival, subject).inferred_model},
                           {"applies", !result.skipped},
                           {"samples", result.samples},

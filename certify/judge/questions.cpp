@@ -349,11 +349,14 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
   const std::string unseen = about_nothing_seen(questions);
   say(unseen);
   if (!unseen.empty()) return answers;
-  say(how_values_come(questions));
-  say(about_visibility(questions));
+  // Who is seen says little where depths are others.
+  const std::string values = how_values_come(questions);
+  say(values);
+  if (!values.starts_with("depth")) say(about_visibility(questions));
   say(about_far(questions));
   if (!say(about_perspective(questions)) && !say(about_eye(questions))) say(about_behind(questions, faults));
   say(about_not_numbers(questions));
+  if (answers.sentences.empty()) say(about_precision(questions));
   return answers;
 }
 

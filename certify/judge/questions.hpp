@@ -59,6 +59,9 @@ inline bool alike(float a, float b) {
 // Of values at the corners of triangles, how those at samples come about, if not as they should; empty if nobody knows.
 std::string how_values_come(const Questions& questions);
 
+// The bits of values that are about right; empty where they have those of float32, about.
+std::string about_precision(const Questions& questions);
+
 // Each empty where all is right, or nothing is said.
 std::string about_ways_of_filling(const Questions& questions);
 std::string about_reach(const Questions& questions);

@@ -7,6 +7,7 @@
 #include <cstdio>
 
 #include "certify/judge/questions.hpp"
+#include "certify/judge/ways.hpp"
 
 namespace surefill::judge {
 
@@ -16,7 +17,6 @@ using corpus::Image;
 using corpus::Scene;
 using corpus::SceneDraw;
 using corpus::SceneVertex;
-using Three = std::array<double, 3>;
 
 constexpr int kSize = 16;
 
@@ -27,186 +27,19 @@ std::string text(const char* form, Values... values) {
   return buffer.data();
 }
 
-// A triangle and a place in it: the weights of its corners there, on the screen.
-struct At {
-  std::array<std::array<double, 2>, 3> corners{};
-  Three w{}, z{};  // z is Z/W
-  double x = 0, y = 0;
-
-  Three weights(double dx = 0, double dy = 0) const {
-    Three e{};
-    double sum = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto &p = corners[(i + 1) % 3], &q = corners[(i + 2) % 3];
-      e[i] = (q[0] - p[0]) * (y + dy - p[1]) - (q[1] - p[1]) * (x + dx - p[0]);
-      sum += e[i];
-    }
-    return {e[0] / sum, e[1] / sum, e[2] / sum};
-  }
-};
-
-// Weights of what is at the corners, as one way to interpolate has them.
-struct Way {
-  const char* text;
-  Three (*weights)(const At& at);
-};
-
-Three divided(const At& at, Three l) {
-  const double sum = l[0] / at.w[0] + l[1] / at.w[1] + l[2] / at.w[2];
-  return {l[0] / at.w[0] / sum, l[1] / at.w[1] / sum, l[2] / at.w[2] / sum};
-}
-Three turned(Three l, std::size_t a, std::size_t b, std::size_t c) {
-  return {l[a], l[b], l[c]};
-}
-
-enum Kind : std::size_t { kScreen, kPerspective, kFlat };
-
-constexpr Way kWays[] = {
-    {"interpolated on the screen, without perspective", [](const At& at) { return at.weights(); }},
-    {"interpolated with perspective", [](const At& at) { return divided(at, at.weights()); }},
-    {"those of vertex 0, the first one, and not interpolated",
-     [](const At&) {
-       return Three{1, 0, 0};
-     }},
-    {"those of vertex 1, and not interpolated",
-     [](const At&) {
-       return Three{0, 1, 0};
-     }},
-    {"those of vertex 2, the last one, and not interpolated",
-     [](const At&) {
-       return Three{0, 0, 1};
-     }},
-    {"the mean of the three vertices', and not interpolated",
-     [](const At&) {
-       return Three{1 / 3.0, 1 / 3.0, 1 / 3.0};
-     }},
-    {"those of other vertices: 1 and 2 are exchanged",
-     [](const At& at) { return turned(divided(at, at.weights()), 0, 2, 1); }},
-    {"those of other vertices: 0 and 1 are exchanged",
-     [](const At& at) { return turned(divided(at, at.weights()), 1, 0, 2); }},
-    {"those of other vertices: 0 and 2 are exchanged",
-     [](const At& at) { return turned(divided(at, at.weights()), 2, 1, 0); }},
-    {"those of other vertices, one further: in the order 1, 2, 0",
-     [](const At& at) { return turned(divided(at, at.weights()), 2, 0, 1); }},
-    {"those of other vertices, one further: in the order 2, 0, 1",
-     [](const At& at) { return turned(divided(at, at.weights()), 1, 2, 0); }},
-    {"those of other vertices: 1 and 2 are exchanged", [](const At& at) { return turned(at.weights(), 0, 2, 1); }},
-    {"those of other vertices: 0 and 1 are exchanged", [](const At& at) { return turned(at.weights(), 1, 0, 2); }},
-    {"those of other vertices: 0 and 2 are exchanged", [](const At& at) { return turned(at.weights(), 2, 1, 0); }},
-    {"those of other vertices, one further: in the order 1, 2, 0",
-     [](const At& at) { return turned(at.weights(), 2, 0, 1); }},
-    {"those of other vertices, one further: in the order 2, 0, 1",
-     [](const At& at) { return turned(at.weights(), 1, 2, 0); }},
-    {"divided by W, and not multiplied by it again: the division at the end is missing",
-     [](const At& at) {
-       const Three l = at.weights();
-       return Three{l[0] / at.w[0], l[1] / at.w[1], l[2] / at.w[2]};
-     }},
-    {"multiplied by W where they should be divided by it",
-     [](const At& at) {
-       const Three l = at.weights();
-       const double sum = l[0] * at.w[0] + l[1] * at.w[1] + l[2] * at.w[2];
-       return Three{l[0] * at.w[0] / sum, l[1] * at.w[1] / sum, l[2] * at.w[2] / sum};
-     }},
-    {"divided by W twice", [](const At& at) { return divided(at, divided(at, at.weights())); }},
-    {"0",
-     [](const At&) {
-       return Three{0, 0, 0};
-     }},
-};
-
-// The same ways at another place: where values are taken.
-struct Place {
-  double x, y;
-  const char* text;
-};
-constexpr Place kPlaces[] = {{-0.5, -0.5, "at the upper left corner of the pixel, not at its centre"},
-                             {0.5, 0.5, "at the lower right corner of the pixel, not at its centre"},
-                             {0.5, -0.5, "at the upper right corner of the pixel, not at its centre"},
-                             {-0.5, 0.5, "at the lower left corner of the pixel, not at its centre"},
-                             {-0.5, 0, "half a pixel to the left of the sample"},
-                             {0.5, 0, "half a pixel to the right of the sample"},
-                             {0, -0.5, "half a pixel above the sample"},
-                             {0, 0.5, "half a pixel below the sample"},
-                             {-1, 0, "a pixel to the left of the sample"},
-                             {1, 0, "a pixel to the right of the sample"},
-                             {0, -1, "a pixel above the sample"},
-                             {0, 1, "a pixel below the sample"}};
-
-// One value at one sample.
-struct Seen {
-  At at;
-  Three values{};  // at the corners
-  double got = 0;
-  bool last_row = false;
-};
-
-bool close(double a, double b, double size) {
-  return std::abs(a - b) <= 0x1p-9 * std::max(1.0, size);
-}
-
-double mixed(const Three& weights, const Three& values) {
-  return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2];
-}
-
-template <typename Of>
-bool all_are(const std::vector<Seen>& seen, const Of& of) {
-  std::size_t good = 0;
-  for (const Seen& s : seen) {
-    const double size = std::max({std::abs(s.values[0]), std::abs(s.values[1]), std::abs(s.values[2])});
-    const double wanted = of(s);
-    good += std::isfinite(wanted) && close(wanted, s.got, size);
-  }
-  // Rounding may put a few beside what is about the value.
-  return seen.size() >= 24 && 50 * good >= 49 * seen.size();
-}
-
-Three right_weights(const At& at, Kind kind) {
-  return kind == kScreen ? at.weights() : kind == kPerspective ? divided(at, at.weights()) : Three{1, 0, 0};
-}
-
-// How all of them come about; empty if it is right, "?" if it is not and nobody knows.
-std::string way_of(const std::vector<Seen>& seen, Kind kind) {
-  if (seen.size() < 24) return "";
-  if (all_are(seen, [kind](const Seen& s) { return mixed(right_weights(s.at, kind), s.values); })) return "";
-  for (const Way& way : kWays) {
-    if (all_are(seen, [&way](const Seen& s) { return mixed(way.weights(s.at), s.values); })) return way.text;
-  }
-  for (const Place& place : kPlaces) {
-    const auto there = [&](const Seen& s) {
-      At at = s.at;
-      at.x += place.x, at.y += place.y;
-      return mixed(right_weights(at, kind), s.values);
-    };
-    if (kind != kFlat && all_are(seen, there)) return std::string("taken ") + place.text;
-  }
-  const auto right = [kind](const Seen& s) { return mixed(right_weights(s.at, kind), s.values); };
-  if (all_are(seen, [&](const Seen& s) { return std::clamp(right(s), 0.0, 1.0); })) return "clamped to 0 to 1";
-  if (all_are(seen, [&](const Seen& s) { return std::clamp(right(s), -1.0, 1.0); })) return "clamped to -1 to 1";
-  if (all_are(seen, [&](const Seen& s) { return std::max(right(s), 0.0); })) return "0 where they should be negative";
-  if (all_are(seen, [&](const Seen& s) { return std::abs(right(s)); })) return "without their sign";
-  if (all_are(seen, [&](const Seen& s) { return -right(s); })) return "of the wrong sign";
-  if (all_are(seen, [&](const Seen& s) { return 1 - right(s); })) return "1 less what they should be";
-  return "?";
-}
-
-struct Asked {
-  std::vector<Scene> scenes;
-  std::vector<Wrong> shown;
-};
-
 double unit(Random& random, double low, double high) {
   return low + (high - low) * random.unit();
 }
 
-// Triangles on the target, with two attributes of three components, of one kind, and a depth.
-std::vector<Wrong> shown_of(const Questions& questions, Interpolation kind, bool perspective, bool attributes) {
+// Triangles on the target, with two attributes of three components, of one kind or two, and a depth.
+std::vector<Wrong> shown_of(const Questions& questions, Interpolation kind, bool perspective, bool attributes,
+                            std::optional<Interpolation> second = std::nullopt) {
   Random random(0xA77 + static_cast<std::uint64_t>(kind) + (perspective ? 16 : 0));
   std::vector<Wrong> all;
   for (int n = 0; n < 10; ++n) {
     Scene scene;
     scene.width = scene.height = kSize;
-    if (attributes) scene.attributes = {{"a", 3, kind}, {"b", 3, kind}};
+    if (attributes) scene.attributes = {{"a", 3, kind}, {"b", 3, second.value_or(kind)}};
     SceneDraw& draw = scene.draws.emplace_back();
     std::array<SceneVertex, 3> c{};
     double turn = 0;
@@ -252,6 +85,9 @@ std::vector<Seen> seen_of(const Questions& questions, const std::vector<Wrong>& 
       if (std::min({l[0], l[1], l[2]}) < 0.02) continue;
       Seen one;
       one.at = at;
+      std::size_t first = s;
+      while (first % kSize != 0 && shown.rival.count[first - 1] != 0) --first;
+      one.first_x = static_cast<double>(first % kSize) + questions.model.x.place;
       if (take(shown, v, s, one)) seen.push_back(one);
     }
   }
@@ -261,6 +97,44 @@ std::vector<Seen> seen_of(const Questions& questions, const std::vector<Wrong>& 
 std::string said(const char* what, const std::string& way, const char* otherwise) {
   if (way.empty()) return "";
   return way == "?" ? std::string(otherwise) : std::string(what) + " are " + way;
+}
+
+// --- how precisely
+
+bool has_bits(double value, int bits) {
+  int exponent = 0;
+  const double mantissa = std::ldexp(std::frexp(value, &exponent), bits);
+  return mantissa == std::nearbyint(mantissa);
+}
+bool close_to_bits(double right, double got, int bits) {
+  return std::abs(got - right) <= std::ldexp(std::abs(right), 1 - bits);
+}
+std::string small_float(int bits) {
+  return "floating point of " + std::to_string(bits) + " bits" +
+         (bits == 11  ? " (half precision)"
+          : bits == 8 ? " (bfloat16)"
+                      : "");
+}
+
+// What is about right, and is not: of right values and those that came.
+std::string kept_in(const std::vector<std::array<double, 2>>& seen) {
+  const auto every = [&seen](const auto& of) {
+    return seen.size() >= 24 &&
+           std::all_of(seen.begin(), seen.end(), [&of](const auto& pair) { return of(pair[0], pair[1]); });
+  };
+  if (every([](double z, double got) { return std::abs(got - z) <= 0x1p-17 * std::max(1.0, std::abs(z)); })) return "";
+  for (int bits = 4; bits <= 16; ++bits) {
+    for (const double steps : {std::ldexp(1.0, bits) - 1, std::ldexp(1.0, bits)}) {
+      if (every([steps](double z, double got) {
+            return std::abs(got - z) <= 1.51 / steps && std::abs(got * steps - std::nearbyint(got * steps)) < 1e-3;
+          })) {
+        return " come in steps of " + std::to_string(bits) + " bits";
+      }
+    }
+    if (every([bits](double z, double got) { return has_bits(got, bits) && close_to_bits(z, got, bits); }))
+      return " are rounded to " + small_float(bits);
+  }
+  return "";
 }
 
 // --- depth
@@ -277,6 +151,17 @@ std::string depth_steps(const Questions& questions) {
     if (!image || image->depth.empty()) return "";
     seen.push_back({static_cast<double>(static_cast<float>(z)), image->depth[3 * 8 + 3]});
   }
+  const auto every = [&seen](const auto& of) {
+    return std::all_of(seen.begin(), seen.end(), [&of](const auto& pair) { return of(pair[0], pair[1]); });
+  };
+  if (every([](double, double got) { return std::isnan(got); }))
+    return "depth is NaN in triangles that are equally deep everywhere, as of 0 / 0";
+  if (every([](double, double got) { return std::isinf(got); }))
+    return "depth is never written: it stays as it was cleared";
+  const double more = seen[0][1] - seen[0][0];
+  if (std::abs(more) > 0x1p-16 && every([more](double z, double got) { return std::abs(got - z - more) < 0x1p-21; })) {
+    return text("depth is z %+.6g, z being what it should be: a constant is added to it, as by a bias", more);
+  }
   for (const int bits : {4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15}) {
     for (const double steps : {std::ldexp(1.0, bits) - 1, std::ldexp(1.0, bits)}) {
       bool good = true;
@@ -286,7 +171,51 @@ std::string depth_steps(const Questions& questions) {
       if (good) return "depth comes in steps of " + std::to_string(bits) + " bits";
     }
   }
+  for (int bits = 4; bits <= 16; ++bits) {
+    if (every([bits](double z, double got) { return has_bits(got, bits) && close_to_bits(z, got, bits); })) {
+      return "depth is rounded to " + small_float(bits);
+    }
+  }
   return "";
+}
+
+// A part of the slope is added.
+std::string depth_slope(const std::vector<Seen>& seen) {
+  const auto z = [](const Seen& s) { return mixed(s.at.weights(), s.values); };
+  struct Slope {
+    const char* text;
+    double (*of)(double dx, double dy);
+  };
+  constexpr Slope kSlopes[] = {
+      {"max(|dz/dx|, |dz/dy|)", [](double dx, double dy) { return std::max(dx, dy); }},
+      {"|dz/dx| + |dz/dy|", [](double dx, double dy) { return dx + dy; }},
+      {"the length of (dz/dx, dz/dy)", [](double dx, double dy) { return std::hypot(dx, dy); }}};
+  for (const Slope& slope : kSlopes) {
+    const auto steep = [&](const Seen& s) {
+      return slope.of(std::abs(mixed(s.at.weights(1, 0), s.values) - z(s)),
+                      std::abs(mixed(s.at.weights(0, 1), s.values) - z(s)));
+    };
+    double above = 0, below = 0;
+    for (const Seen& s : seen) above += (s.got - z(s)) * steep(s), below += steep(s) * steep(s);
+    const double factor = std::nearbyint(64 * above / below) / 64;
+    if (factor == 0 || !all_are(seen, [&](const Seen& s) { return z(s) + factor * steep(s); })) continue;
+    return text("depth is z %+.4g times %s, a pixel, z being what it should be: its slope is added to it, as by a bias",
+                factor, slope.text);
+  }
+  return "";
+}
+
+// What is right where a row begins, and further off the longer it goes on.
+std::string depth_drift(const std::vector<Seen>& seen) {
+  std::array<double, 2> most{}, along{};
+  for (const Seen& s : seen) {
+    const double error = std::abs(s.got - mixed(s.at.weights(), s.values)), x = s.at.x - s.first_x;
+    const std::size_t far = x >= 8 ? 1 : 0;
+    if ((x <= 1 || far == 1) && error >= most[far]) most[far] = error, along[far] = x;
+  }
+  if (!(most[1] > 4 * most[0]) || !(most[1] < 0x1p-4)) return "";
+  return text("depths drift along a row, by up to %.2g over %.0f pixels: their slope has too few bits", most[1],
+              along[1]);
 }
 
 std::string about_depth(const Questions& questions) {
@@ -303,6 +232,9 @@ std::string about_depth(const Questions& questions) {
   };
   const std::vector<Seen> flat = depths(false), deep = depths(true);
   if (flat.size() < 24) return "";
+  const auto one_over_w = [](const Seen& s) {
+    return 1 / mixed(s.at.weights(), {1 / s.at.w[0], 1 / s.at.w[1], 1 / s.at.w[2]});
+  };
   // A straight line of what it should be.
   double low = INFINITY, high = -INFINITY, low_got = 0, high_got = 0;
   for (const Seen& s : flat) {
@@ -323,8 +255,15 @@ std::string about_depth(const Questions& questions) {
     if (slope == 2 && constant == -1) return map + ": it is taken from 0 to 1 to -1 to 1";
     if (slope == 0.5 && constant == 0.5) return map + ": it is mapped from -1 to 1 to 0 to 1, which it was already";
     if (slope == -1 && constant == 1) return map + ": near and far are exchanged";
+    if (slope == 0 && deep.size() >= 24 && all_are(deep, one_over_w)) return "depth is W, and not Z/W";
+    if (slope == 0 && deep.size() >= 24 && all_are(deep, [&](const Seen& s) { return 1 / one_over_w(s); }))
+      return "depth is 1/W, and not Z/W";
     if (slope == 0) return text("depth is %.4g throughout, whatever it should be", constant);
     return map;
+  }
+  if (way == "?") {
+    if (std::string slopes = depth_slope(flat); !slopes.empty()) return slopes;
+    if (std::string drift = depth_drift(flat); !drift.empty()) return drift;
   }
   if (!way.empty()) return said("depths", way, "depths inside of plain triangles are wrong");
   if (deep.size() < 24) return "";
@@ -343,9 +282,6 @@ std::string about_depth(const Questions& questions) {
     return "depth is Z interpolated with perspective, and not Z/W";
   }
   if (is([&](const Seen& s) { return mixed(s.at.weights(), by_w(s, -1)); })) return "depth is divided by W twice";
-  const auto one_over_w = [](const Seen& s) {
-    return 1 / mixed(s.at.weights(), {1 / s.at.w[0], 1 / s.at.w[1], 1 / s.at.w[2]});
-  };
   if (is(one_over_w)) return "depth is W, and not Z/W";
   if (is([&](const Seen& s) { return 1 / one_over_w(s); })) return "depth is 1/W, and not Z/W";
   if (is([&](const Seen& s) { return mixed(s.at.weights(), s.at.w); }))
@@ -355,6 +291,33 @@ std::string about_depth(const Questions& questions) {
 }
 
 // --- barycentrics
+
+bool about_right(const std::vector<Seen>& seen, Kind kind) {
+  return std::all_of(seen.begin(), seen.end(), [kind](const Seen& s) {
+    return std::abs(s.got - mixed(right_weights(s.at, kind), s.values)) < 0x1p-5;
+  });
+}
+
+// One of the three is another one.
+std::string one_barycentric(const std::vector<Seen>& all) {
+  std::array<std::vector<Seen>, 3> seen;
+  for (const Seen& s : all) seen[s.values[0] == 1 ? 0 : s.values[1] == 1 ? 1 : 2].push_back(s);
+  std::size_t bad = 0, which = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (!way_of(seen[i], kPerspective).empty()) ++bad, which = i;
+  }
+  if (bad != 1) return "barycentrics are wrong";
+  const std::string name = "barycentric b" + std::to_string(which);
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (j == which || !all_are(seen[which], [j](const Seen& s) { return 1 - divided(s.at, s.at.weights())[j]; })) {
+      continue;
+    }
+    return name + " is 1 - b" + std::to_string(j) + ": the third one is not taken off";
+  }
+  if (all_are(seen[which], [](const Seen&) { return 0; })) return name + " is 0, the others are right";
+  const std::string way = way_of(seen[which], kPerspective);
+  return name + (way == "?" ? " is wrong, the others are right" : " is " + way + ", the others are right");
+}
 
 std::string about_barycentrics(const Questions& questions) {
   for (const bool perspective : {false, true}) {
@@ -373,7 +336,9 @@ std::string about_barycentrics(const Questions& questions) {
     }
     const std::string way = way_of(seen, kPerspective);
     if (way.empty()) continue;
-    return said("barycentrics", way, "barycentrics are wrong");
+    if (way != "?") return said("barycentrics", way, "");
+    if (about_right(seen, kPerspective)) continue;  // how precise they are is another question
+    return one_barycentric(seen);
   }
   return "";
 }
@@ -461,15 +426,116 @@ std::string about_attributes(const Questions& questions) {
       return sentence;
     }
   }
+  // Arrays of two kinds in one frame.
+  constexpr std::array<std::pair<Interpolation, Kind>, 3> kKinds{{{Interpolation::perspective, kPerspective},
+                                                                  {Interpolation::noperspective, kScreen},
+                                                                  {Interpolation::flat, kFlat}}};
+  for (const auto& [first, first_kind] : kKinds) {
+    for (const auto& [second, second_kind] : kKinds) {
+      if (first == second) continue;
+      const std::vector<Wrong> all = shown_of(questions, first, true, true, second);
+      const std::vector<Seen> one = attributes_of(questions, all, {0, 0}, {0, 0}),
+                              other = attributes_of(questions, all, {1, 0}, {1, 0});
+      const bool good = way_of_all(one, first_kind).empty(), other_good = way_of_all(other, second_kind).empty();
+      if (good && !other_good && way_of_all(other, first_kind).empty())
+        return "of attributes of several kinds (perspective, noperspective, flat) all are interpolated as the first "
+               "one is";
+      if (!good && other_good && way_of_all(one, second_kind).empty())
+        return "of attributes of several kinds (perspective, noperspective, flat) all are interpolated as the last one "
+               "is";
+    }
+  }
   return "";
 }
 
+// Values of a few triangles as they come, and what they should be: depths, barycentrics, attributes.
+struct Precise {
+  std::array<std::vector<std::array<double, 2>>, 3> seen;
+  std::array<bool, 4> right{true, true, true, true};  // of the attribute's components
+  double fourth = 0;
+};
+
+Precise precise_values(const Questions& questions, bool perspective) {
+  Random random(0x94EC);
+  Precise result;
+  for (int n = 0; n < 8; ++n) {
+    Scene scene = empty_scene(kSize, kSize);
+    scene.attributes = {{"a", 4, Interpolation::perspective}};
+    std::array<SceneVertex, 3> c = plain_corners(random, kSize, kSize);
+    At at;
+    std::array<Three, 4> values{};
+    for (std::size_t i = 0; i < 3; ++i) {
+      at.corners[i] = {c[i].x, c[i].y};
+      at.w[i] = perspective ? 1 + 2 * random.below(4) : 1;
+      at.z[i] = std::nearbyint(1024 * unit(random, 0.1, 0.9)) / 1024;
+      c[i] = corner(c[i].x, c[i].y, at.z[i], at.w[i]);
+      for (std::size_t k = 0; k < 4; ++k) {
+        c[i].attributes.push_back(static_cast<float>(unit(random, 0.1, 0.9)));
+        values[k][i] = c[i].attributes.back();
+      }
+    }
+    add_triangle(scene.draws[0], c, questions.model.culled);
+    const auto image = questions.rival(scene);
+    if (!image || image->count.empty()) continue;
+    for (std::size_t s = 0; s < image->count.size(); ++s) {
+      at.x = static_cast<double>(s % kSize) + questions.model.x.place;
+      at.y = static_cast<double>(s / kSize) + questions.model.y.place;
+      const Three l = at.weights(), b = divided(at, l);
+      if (image->count[s] != 1 || std::min({l[0], l[1], l[2]}) < 0.02) continue;
+      if (!image->depth.empty()) result.seen[0].push_back({mixed(l, at.z), image->depth[s]});
+      const std::uint32_t turned = scene.draws[0].triangles[0].vertices[1] == 1 ? 0 : 1;
+      if (!image->barycentrics.empty() && !turned) result.seen[1].push_back({b[0], image->barycentrics[3 * s]});
+      if (image->attributes.empty() || image->attributes[0].empty()) continue;
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double wanted = mixed(b, values[k]), got = image->attributes[0][4 * s + k];
+        if (k < 3) result.seen[2].push_back({wanted, got});
+        result.right[k] = result.right[k] && close(wanted, got, 1);
+        if (k == 3) result.fourth = got;
+      }
+    }
+  }
+  return result;
+}
+
 }  // namespace
+
+std::string about_precision(const Questions& questions) {
+  constexpr std::array<const char*, 3> kNames{"depths", "barycentrics", "attributes"};
+  const Precise flat = precise_values(questions, false), deep = precise_values(questions, true);
+  if (flat.right[0] && flat.right[1] && flat.right[2] && !flat.right[3]) {
+    return text("the fourth component of attributes is wrong, the others are right: it comes as %.4g", flat.fourth);
+  }
+  for (const std::size_t k : {2u, 1u, 0u}) {
+    if (const std::string kept = kept_in(flat.seen[k]); !kept.empty()) return kNames[k] + kept;
+  }
+  const auto error = [](const std::vector<std::array<double, 2>>& seen) {
+    double most = 0;
+    for (const auto& [right, got] : seen) most = std::max(most, std::abs(got - right));
+    return most;
+  };
+  for (const std::size_t k : {2u, 1u}) {
+    const double most = error(deep.seen[k]);
+    if (const double off = error(flat.seen[k]); off > 0x1p-15 && off < 0x1p-6) {
+      return kNames[k] +
+             text(" are up to %.2g beside what they should be: something that they come of has about %d bits", off,
+                  -std::ilogb(off));
+    }
+    if (!(error(flat.seen[k]) < 0x1p-18) || !(most > 0x1p-15 && most < 0x1p-6)) continue;
+    return std::string("with perspective (W that differs) ") + kNames[k] +
+           text(" are up to %.2g beside what they should be: 1/W, or W from it, has about %d bits", most,
+                -std::ilogb(most));
+  }
+  return "";
+}
 
 std::string how_values_come(const Questions& questions) {
   const std::string depth = about_depth(questions), weights = about_barycentrics(questions),
                     attributes = about_attributes(questions);
   if (!depth.empty()) return depth;
+  if (attributes.ends_with("clamped to 0 to 1")) {
+    const std::string precision = about_precision(questions);
+    return attributes + (precision.empty() ? "" : "; " + precision);
+  }
   if (!attributes.empty()) return attributes;
   return weights;
 }

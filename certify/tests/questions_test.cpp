@@ -109,6 +109,90 @@ constexpr Planted kPlanted[] = {
          for (std::size_t n = 0; n + 2 < values.size(); n += 3) std::swap(values[n], values[n + 1]);
        }
      }},
+    {"attributes are clamped to 0 to 1 at the vertices, before they are interpolated",
+     [](Scene& s) {
+       each_draw(s, [](SceneDraw& d) {
+         for (corpus::SceneVertex& v : d.vertices) {
+           for (float& a : v.attributes) a = std::clamp(a, 0.0f, 1.0f);
+         }
+       });
+     },
+     nullptr},
+    {"attributes are rounded to floating point of 11 bits (half precision)", nullptr,
+     [](const Scene&, Image& i) {
+       for (std::vector<float>& values : i.attributes) {
+         for (float& a : values) {
+           int exponent = 0;
+           const float mantissa = std::frexp(a, &exponent);
+           a = std::ldexp(std::nearbyint(2048 * mantissa) / 2048, exponent);
+         }
+       }
+     }},
+    {"barycentrics are those of other vertices: 1 and 2 are exchanged, in back faces (counter-clockwise on the screen) "
+     "alone",
+     nullptr,
+     [](const Scene& s, Image& i) {
+       // Of frames with one triangle.
+       if (s.draws.size() != 1 || s.draws[0].triangles.size() != 1) return;
+       std::array<std::array<double, 2>, 3> p{};
+       for (std::size_t k = 0; k < 3; ++k) {
+         const corpus::SceneVertex& v = s.draws[0].vertices[s.draws[0].triangles[0].vertices[k]];
+         p[k] = {double{v.x} / v.w, double{v.y} / v.w};
+       }
+       if ((p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) > (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])) return;
+       for (std::size_t n = 0; n + 2 < i.barycentrics.size(); n += 3)
+         std::swap(i.barycentrics[n + 1], i.barycentrics[n + 2]);
+     }},
+    {"barycentric b2 is 0, the others are right", nullptr,
+     [](const Scene&, Image& i) {
+       for (std::size_t n = 2; n < i.barycentrics.size(); n += 3) i.barycentrics[n] = 0;
+     }},
+    {"depth is z +0.001, z being what it should be: a constant is added", nullptr,
+     [](const Scene&, Image& i) { depths(i, [](float z) { return z + 0.001f; }); }},
+    {"depth is rounded to floating point of 8 bits (bfloat16)", nullptr,
+     [](const Scene&, Image& i) {
+       depths(i, [](float z) {
+         int exponent = 0;
+         const float mantissa = std::frexp(z, &exponent);
+         return std::ldexp(std::nearbyint(256 * mantissa) / 256, exponent);
+       });
+     }},
+    {"depths are the smallest of the three vertices', and not interpolated",
+     [](Scene& s) {
+       each_draw(s, [](SceneDraw& d) {
+         for (const corpus::SceneTriangle& t : d.triangles) {
+           float least = INFINITY;
+           for (const std::uint32_t v : t.vertices) least = std::min(least, d.vertices[v].z / d.vertices[v].w);
+           for (const std::uint32_t v : t.vertices) d.vertices[v].z = least * d.vertices[v].w;
+         }
+       });
+     },
+     nullptr},
+    {"of attributes of several kinds (perspective, noperspective, flat) all are interpolated as the first one is",
+     [](Scene& s) {
+       for (corpus::SceneAttribute& a : s.attributes) a.interpolation = s.attributes[0].interpolation;
+     },
+     nullptr},
+    {"the fourth component of attributes is wrong, the others are right: it comes as 1", nullptr,
+     [](const Scene& s, Image& i) {
+       for (std::size_t k = 0; k < i.attributes.size(); ++k) {
+         for (std::size_t n = 3; s.attributes[k].components == 4 && n < i.attributes[k].size(); n += 4) {
+           i.attributes[k][n] = 1;
+         }
+       }
+     }},
+    {"attributes are taken once for each block of 2 x 2 pixels, at its upper left one", nullptr,
+     [](const Scene& s, Image& i) {
+       if (s.samples != 1) return;
+       for (std::size_t k = 0; k < i.attributes.size(); ++k) {
+         const std::size_t n = s.attributes[k].components, width = static_cast<std::size_t>(s.width);
+         for (std::size_t p = 0; p < i.count.size(); ++p) {
+           const std::size_t from = p / width / 2 * 2 * width + p % width / 2 * 2;
+           for (std::size_t c = 0; c < n && i.count[from] == 1; ++c)
+             i.attributes[k][n * p + c] = i.attributes[k][n * from + c];
+         }
+       }
+     }},
     {"attributes are clamped to 0 to 1", nullptr,
      [](const Scene&, Image& i) {
        for (std::vector<float>& values : i.attributes) {

@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "certify/judge/ways.hpp"
+
+#include <cstdio>
+
+namespace surefill::judge {
+
+namespace {
+
+template <typename... Values>
+std::string text(const char* form, Values... values) {
+  std::array<char, 256> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), form, values...);
+  return buffer.data();
+}
+
+// Weights of what is at the corners, as one way to interpolate has them.
+struct Way {
+  const char* text;
+  Three (*weights)(const At& at);
+};
+
+Three turned(Three l, std::size_t a, std::size_t b, std::size_t c) {
+  return {l[a], l[b], l[c]};
+}
+
+constexpr Way kWays[] = {
+    {"interpolated on the screen, without perspective", [](const At& at) { return at.weights(); }},
+    {"interpolated with perspective", [](const At& at) { return divided(at, at.weights()); }},
+    {"those of vertex 0, the first one, and not interpolated",
+     [](const At&) {
+       return Three{1, 0, 0};
+     }},
+    {"those of vertex 1, and not interpolated",
+     [](const At&) {
+       return Three{0, 1, 0};
+     }},
+    {"those of vertex 2, the last one, and not interpolated",
+     [](const At&) {
+       return Three{0, 0, 1};
+     }},
+    {"the mean of the three vertices', and not interpolated",
+     [](const At&) {
+       return Three{1 / 3.0, 1 / 3.0, 1 / 3.0};
+     }},
+    {"those of other vertices: 1 and 2 are exchanged",
+     [](const At& at) { return turned(divided(at, at.weights()), 0, 2, 1); }},
+    {"those of other vertices: 0 and 1 are exchanged",
+     [](const At& at) { return turned(divided(at, at.weights()), 1, 0, 2); }},
+    {"those of other vertices: 0 and 2 are exchanged",
+     [](const At& at) { return turned(divided(at, at.weights()), 2, 1, 0); }},
+    {"those of other vertices, one further: in the order 1, 2, 0",
+     [](const At& at) { return turned(divided(at, at.weights()), 2, 0, 1); }},
+    {"those of other vertices, one further: in the order 2, 0, 1",
+     [](const At& at) { return turned(divided(at, at.weights()), 1, 2, 0); }},
+    {"those of other vertices: 1 and 2 are exchanged", [](const At& at) { return turned(at.weights(), 0, 2, 1); }},
+    {"those of other vertices: 0 and 1 are exchanged", [](const At& at) { return turned(at.weights(), 1, 0, 2); }},
+    {"those of other vertices: 0 and 2 are exchanged", [](const At& at) { return turned(at.weights(), 2, 1, 0); }},
+    {"those of other vertices, one further: in the order 1, 2, 0",
+     [](const At& at) { return turned(at.weights(), 2, 0, 1); }},
+    {"those of other vertices, one further: in the order 2, 0, 1",
+     [](const At& at) { return turned(at.weights(), 1, 2, 0); }},
+    {"divided by W, and not multiplied by it again: the division at the end is missing",
+     [](const At& at) {
+       const Three l = at.weights();
+       return Three{l[0] / at.w[0], l[1] / at.w[1], l[2] / at.w[2]};
+     }},
+    {"multiplied by W where they should be divided by it",
+     [](const At& at) {
+       const Three l = at.weights();
+       const double sum = l[0] * at.w[0] + l[1] * at.w[1] + l[2] * at.w[2];
+       return Three{l[0] * at.w[0] / sum, l[1] * at.w[1] / sum, l[2] * at.w[2] / sum};
+     }},
+    {"divided by W twice", [](const At& at) { return divided(at, divided(at, at.weights())); }},
+    {"0",
+     [](const At&) {
+       return Three{0, 0, 0};
+     }},
+};
+
+// The same ways at another place: where values are taken.
+struct Place {
+  double x, y;
+  const char* text;
+};
+constexpr Place kPlaces[] = {{-0.5, -0.5, "at the upper left corner of the pixel, not at its centre"},
+                             {0.5, 0.5, "at the lower right corner of the pixel, not at its centre"},
+                             {0.5, -0.5, "at the upper right corner of the pixel, not at its centre"},
+                             {-0.5, 0.5, "at the lower left corner of the pixel, not at its centre"},
+                             {-0.5, 0, "half a pixel to the left of the sample"},
+                             {0.5, 0, "half a pixel to the right of the sample"},
+                             {0, -0.5, "half a pixel above the sample"},
+                             {0, 0.5, "half a pixel below the sample"},
+                             {-1, 0, "a pixel to the left of the sample"},
+                             {1, 0, "a pixel to the right of the sample"},
+                             {0, -1, "a pixel above the sample"},
+                             {0, 1, "a pixel below the sample"}};
+
+// Values that are right, of other values at the corners.
+struct Change {
+  const char* text;
+  double (*of)(double value);
+};
+constexpr Change kAtVertices[] = {{"clamped to 0 to 1", [](double v) { return std::clamp(v, 0.0, 1.0); }},
+                                  {"clamped to -1 to 1", [](double v) { return std::clamp(v, -1.0, 1.0); }},
+                                  {"0 where they are negative", [](double v) { return std::max(v, 0.0); }},
+                                  {"without their sign", [](double v) { return std::abs(v); }}};
+
+// Values that are taken once for several pixels.
+struct Block {
+  int width, height;
+};
+constexpr Block kBlocks[] = {{2, 2}, {2, 1}, {1, 2}, {4, 4}, {4, 1}, {8, 8}, {8, 1}, {16, 16}, {16, 1}};
+
+std::string block_way(const std::vector<Seen>& seen, Kind kind) {
+  const auto at_place = [kind](const Seen& s, double x, double y) {
+    At at = s.at;
+    at.x = x, at.y = y;
+    return mixed(right_weights(at, kind), s.values);
+  };
+  if (all_are(seen, [&](const Seen& s) { return at_place(s, s.first_x, s.at.y); }))
+    return "taken once for each row of a triangle, at its first pixel";
+  for (const Block& block : kBlocks) {
+    const auto first = [](double at, int size) { return at - std::fmod(std::floor(at), size); };
+    const auto size = text("%d x %d pixels", block.width, block.height);
+    const auto begin = [&](const Seen& s) {
+      return std::array{first(s.at.x, block.width), first(s.at.y, block.height)};
+    };
+    if (all_are(seen, [&](const Seen& s) { return at_place(s, begin(s)[0], begin(s)[1]); }))
+      return "taken once for each block of " + size + ", at its upper left one";
+    const auto middle = [&](const Seen& s) {
+      return at_place(s, std::floor(begin(s)[0]) + block.width / 2.0, std::floor(begin(s)[1]) + block.height / 2.0);
+    };
+    if (all_are(seen, middle)) return "taken once for each block of " + size + ", at its middle";
+    const auto carried = [&](const Seen& s) {
+      const auto [x, y] = begin(s);
+      const double v = at_place(s, x, y);
+      return v + (at_place(s, x + 1, y) - v) * (s.at.x - x) + (at_place(s, x, y + 1) - v) * (s.at.y - y);
+    };
+    if (block.width * block.height > 2 && all_are(seen, carried))
+      return "right at the first pixel of each block of " + size + ", and carried on from there in even steps";
+  }
+  return "";
+}
+
+// What tells triangles apart of which some are right.
+struct Some {
+  const char* text;
+  bool (*has)(const At& at);
+};
+double turn_of(const At& at) {
+  const auto& c = at.corners;
+  return (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
+}
+constexpr Some kSome[] = {
+    {"where vertices 0 and 1 have the same W", [](const At& at) { return at.w[0] == at.w[1]; }},
+    {"where vertices 1 and 2 have the same W", [](const At& at) { return at.w[1] == at.w[2]; }},
+    {"where vertices 0 and 2 have the same W", [](const At& at) { return at.w[0] == at.w[2]; }},
+    {"in back faces (counter-clockwise on the screen)", [](const At& at) { return turn_of(at) < 0; }},
+    {"in front faces (clockwise on the screen)", [](const At& at) { return turn_of(at) > 0; }}};
+
+}  // namespace
+
+std::string way_of(const std::vector<Seen>& seen, Kind kind) {
+  std::string way = way_of_all(seen, kind);
+  if (way != "?") return way;
+  for (const Some& some : kSome) {
+    std::vector<Seen> those, others;
+    for (const Seen& s : seen) (some.has(s.at) ? those : others).push_back(s);
+    if (those.size() < 24 || others.size() < 24 || !way_of_all(others, kind).empty()) continue;
+    way = way_of_all(those, kind);
+    // What nobody knows is said of them if nearly all are wrong.
+    const auto right = std::count_if(those.begin(), those.end(), [kind](const Seen& s) {
+      return close(mixed(right_weights(s.at, kind), s.values), s.got, 1);
+    });
+    if (way == "?" && 4 * static_cast<std::size_t>(right) > those.size()) continue;
+    return (way == "?" ? "wrong" : way) + ", " + some.text + " alone: elsewhere they are right";
+  }
+  return way;
+}
+
+std::string way_of_all(const std::vector<Seen>& seen, Kind kind) {
+  if (seen.size() < 24) return "";
+  if (all_are(seen, [kind](const Seen& s) { return mixed(right_weights(s.at, kind), s.values); })) return "";
+  for (const Way& way : kWays) {
+    if (all_are(seen, [&way](const Seen& s) { return mixed(way.weights(s.at), s.values); })) return way.text;
+  }
+  for (const Place& place : kPlaces) {
+    const auto there = [&](const Seen& s) {
+      At at = s.at;
+      at.x += place.x, at.y += place.y;
+      return mixed(right_weights(at, kind), s.values);
+    };
+    if (kind != kFlat && all_are(seen, there)) return std::string("taken ") + place.text;
+  }
+  const auto right = [kind](const Seen& s) { return mixed(right_weights(s.at, kind), s.values); };
+  if (all_are(seen, [&](const Seen& s) { return std::clamp(right(s), 0.0, 1.0); })) return "clamped to 0 to 1";
+  if (all_are(seen, [&](const Seen& s) { return std::clamp(right(s), -1.0, 1.0); })) return "clamped to -1 to 1";
+  if (all_are(seen, [&](const Seen& s) { return std::max(right(s), 0.0); })) return "0 where they should be negative";
+  if (all_are(seen, [&](const Seen& s) { return std::abs(right(s)); })) return "without their sign";
+  if (all_are(seen, [&](const Seen& s) { return -right(s); })) return "of the wrong sign";
+  if (all_are(seen, [&](const Seen& s) { return 1 - right(s); })) return "1 less what they should be";
+  if (all_are(seen, [&](const Seen& s) { return std::trunc(right(s)); })) return "cut to whole numbers";
+  if (all_are(seen, [&](const Seen& s) { return std::nearbyint(right(s)); })) return "rounded to whole numbers";
+  for (const Change& change : kAtVertices) {
+    const auto changed = [&](const Seen& s) {
+      return mixed(right_weights(s.at, kind), {change.of(s.values[0]), change.of(s.values[1]), change.of(s.values[2])});
+    };
+    if (all_are(seen, changed)) return std::string(change.text) + " at the vertices, before they are interpolated";
+  }
+  if (kind == kFlat) return "?";
+  if (all_are(seen, [](const Seen& s) { return std::min({s.values[0], s.values[1], s.values[2]}); }))
+    return "the smallest of the three vertices', and not interpolated";
+  if (all_are(seen, [](const Seen& s) { return std::max({s.values[0], s.values[1], s.values[2]}); }))
+    return "the largest of the three vertices', and not interpolated";
+  const std::string block = block_way(seen, kind);
+  return block.empty() ? "?" : block;
+}
+
+}  // namespace surefill::judge

@@ -572,6 +572,8 @@ std::string about_visibility(const Questions& questions) {
   const auto near_first = who(DepthTest::less, 0.25, 0.75), far_first = who(DepthTest::less, 0.75, 0.25);
   if (!near_first || !far_first) return "";
   if (seen(questions, DepthTest::less, {0.5}, false) != 0u) return "";  // then indices say nothing
+  const std::string found = about_seen(questions);
+  if (found.starts_with("the index is written")) return found;
   if (*near_first == 1 && *far_first == 1)
     return "there is no depth test: the last triangle drawn is seen, whatever its depth";
   if (*near_first == 0 && *far_first == 0)
@@ -611,7 +613,7 @@ std::string about_visibility(const Questions& questions) {
   }
   const auto read_only = seen(questions, DepthTest::less, {0.25, 0.75}, true, std::nullopt, false);
   if (read_only && *read_only == 0) return "depth is written by draws that should not write it";
-  return "";
+  return found;
 }
 
 }  // namespace surefill::judge

@@ -356,7 +356,7 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
   say(about_far(questions));
   if (!say(about_perspective(questions)) && !say(about_eye(questions))) say(about_behind(questions, faults));
   say(about_not_numbers(questions));
-  if (answers.sentences.empty()) say(about_precision(questions));
+  if (answers.sentences.empty()) say(about_bits(questions));
   return answers;
 }
 

@@ -60,7 +60,7 @@ inline bool alike(float a, float b) {
 std::string how_values_come(const Questions& questions);
 
 // The bits of values that are about right; empty where they have those of float32, about.
-std::string about_precision(const Questions& questions);
+std::string about_bits(const Questions& questions);
 
 // Each empty where all is right, or nothing is said.
 std::string about_ways_of_filling(const Questions& questions);

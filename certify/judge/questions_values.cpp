@@ -499,7 +499,7 @@ Precise precise_values(const Questions& questions, bool perspective) {
 
 }  // namespace
 
-std::string about_precision(const Questions& questions) {
+std::string about_bits(const Questions& questions) {
   constexpr std::array<const char*, 3> kNames{"depths", "barycentrics", "attributes"};
   const Precise flat = precise_values(questions, false), deep = precise_values(questions, true);
   if (flat.right[0] && flat.right[1] && flat.right[2] && !flat.right[3]) {
@@ -533,7 +533,7 @@ std::string how_values_come(const Questions& questions) {
                     attributes = about_attributes(questions);
   if (!depth.empty()) return depth;
   if (attributes.ends_with("clamped to 0 to 1")) {
-    const std::string precision = about_precision(questions);
+    const std::string precision = about_bits(questions);
     return attributes + (precision.empty() ? "" : "; " + precision);
   }
   if (!attributes.empty()) return attributes;

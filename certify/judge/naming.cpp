@@ -75,4 +75,25 @@ std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wron
   return names;
 }
 
+void drop_refuted(std::vector<Name>& names, std::span<const corpus::Scene> fine, double within) {
+  constexpr std::size_t kMost = 12;
+  fine = fine.first(std::min(fine.size(), kMost));
+  std::erase_if(names, [&](const Name& name) {
+    std::size_t shown = 0;
+    for (const corpus::Scene& scene : fine) {
+      const corpus::Outputs outputs{true, true, true, true, true};
+      corpus::Frame right(scene, outputs), theirs(scene, outputs);
+      if (render(right.target(), right.draws()) != Status::ok) continue;
+      if (name.fault->render(theirs.target(), theirs.draws()) != Status::ok) continue;
+      const std::size_t total = right.image().count.size();
+      for (std::size_t s = 0; s < total; ++s) {
+        if (same_sample(right.image(), theirs.image(), s, within)) continue;
+        ++shown;
+        break;
+      }
+    }
+    return 4 * shown > fine.size();
+  });
+}
+
 }  // namespace surefill::judge

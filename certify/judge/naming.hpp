@@ -40,6 +40,9 @@ struct Name {
 std::vector<Name> name_fault(std::span<const Fault> faults, std::span<const Wrong> wrong, double within,
                              double least = 0.5);
 
+// Takes away the names of faults that would show in scenes which are drawn right: in more than a fourth of the first dozen.
+void drop_refuted(std::vector<Name>& names, std::span<const corpus::Scene> fine, double within);
+
 // What is alike within that.
 bool alike_within(float a, float b, double within);
 

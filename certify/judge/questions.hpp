@@ -69,6 +69,8 @@ std::string about_perspective(const Questions& questions);
 std::string about_eye(const Questions& questions);
 std::string about_blocks(const Questions& questions);
 std::string about_triangles_before(const Questions& questions);
+std::string about_vertex_cache(const Questions& questions);
+std::string about_ends_of_rows(const Questions& questions);
 std::string about_strides(const Questions& questions);
 std::string about_precision(const Questions& questions);
 std::string about_slopes(const Questions& questions);

@@ -294,6 +294,8 @@ std::string about_index(const Questions& questions) {
        [](std::uint32_t, std::uint32_t all, std::uint32_t) { return all - 1; }},
       {"each draw counts its triangles from 0: the index does not go on from draw to draw",
        [](std::uint32_t t, std::uint32_t, std::uint32_t draw) { return t % draw; }},
+      {"the number of triangles of the draws before is added to the index once more: it goes on over draws",
+       [](std::uint32_t t, std::uint32_t, std::uint32_t draw) { return t + t / draw * draw; }},
       {"the index is the draw's number, not the triangle's",
        [](std::uint32_t t, std::uint32_t, std::uint32_t draw) { return t / draw; }}};
   const auto follows = [](const Image& image, const Form& form, int draws) {
@@ -329,52 +331,6 @@ std::string about_index(const Questions& questions) {
     return "indices have 16 bits: larger ones overflow";
   }
   return "";
-}
-
-// Many triangles, one on the other.
-std::string about_counts(const Questions& questions) {
-  std::vector<std::array<std::uint32_t, 2>> got;
-  for (const int n : {1,   2,   3,   4,   7,   8,   9,   15,  16,  17,  31,   32,   33,   63,   64,   65,
-                      127, 128, 129, 255, 256, 257, 300, 511, 512, 513, 1000, 1025, 2049, 4097, 66000}) {
-    Scene scene = empty_scene(8, 8);
-    add_triangle(scene.draws[0], {corner(1.125, 1.25), corner(6.5, 2.125), corner(2.25, 6.625)},
-                 questions.model.culled);
-    scene.draws[0].triangles.assign(static_cast<std::size_t>(n), scene.draws[0].triangles[0]);
-    const auto image = questions.rival(scene);
-    if (!image || image->count.empty()) break;
-    got.push_back({static_cast<std::uint32_t>(n), image->count[3 * 8 + 3]});
-  }
-  if (got.size() < 8) return "";
-  const auto all = [&got](const auto& of) {
-    return std::all_of(got.begin(), got.end(), [&of](const auto& g) { return g[1] == of(g[0]); });
-  };
-  if (all([](std::uint32_t n) { return n; })) return "";
-  std::uint32_t most = 0;
-  for (const auto& g : got) most = std::max(most, g[1]);
-  if (most == 1) {
-    // Each nearer than the one before: all of them pass the depth test.
-    Scene scene = empty_scene(8, 8);
-    for (const double z : {0.75, 0.5, 0.25}) {
-      add_triangle(scene.draws[0], {corner(1.125, 1.25, z), corner(6.5, 2.125, z), corner(2.25, 6.625, z)},
-                   questions.model.culled);
-    }
-    const auto image = questions.rival(scene);
-    if (image && !image->count.empty() && image->count[3 * 8 + 3] == 3) {
-      return "only what passes the depth test is counted, not all that covers a sample";
-    }
-  }
-  if (all([most](std::uint32_t n) { return std::min(n, most); })) return "counts stop at " + std::to_string(most);
-  for (const std::uint32_t bits : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 10u, 12u, 16u}) {
-    if (all([bits](std::uint32_t n) { return n & ((1u << bits) - 1); })) {
-      return "counts overflow: they have " + std::to_string(bits) + " bits";
-    }
-  }
-  if (all([](std::uint32_t n) { return 2 * n; })) return "every count is twice what it should be";
-  if (all([](std::uint32_t n) { return n + 1; })) return "every count is 1 too large where anything is drawn";
-  if (all([](std::uint32_t n) { return n - 1; })) return "every count is 1 too small where anything is drawn";
-  const auto first = std::find_if(got.begin(), got.end(), [](const auto& g) { return g[0] != g[1]; });
-  return "of " + std::to_string((*first)[0]) + " triangles on each other " + std::to_string((*first)[1]) +
-         " are counted";
 }
 
 // A draw of so many vertices.

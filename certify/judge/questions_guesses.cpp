@@ -357,6 +357,18 @@ int behind(const Triangle& t) {
 }
 
 constexpr Guess kBehind[] = {
+    {"triangles with a vertex behind the eye (W <= 0) are rejected by X/W and Y/W, as if all of them were in front: "
+     "some that "
+     "are seen are lost",
+     [](const Triangle& t, Drawing& to, int) {
+       const double width = to.width, height = to.height;
+       unless(t, to, [&] {
+         return how_many(t, [](const Point& p) { return divided(p.x, p) < 0; }) == 3 ||
+                how_many(t, [](const Point& p) { return divided(p.y, p) < 0; }) == 3 ||
+                how_many(t, [width](const Point& p) { return divided(p.x, p) > width; }) == 3 ||
+                how_many(t, [height](const Point& p) { return divided(p.y, p) > height; }) == 3;
+       });
+     }},
     {"a triangle with a vertex behind the eye (W <= 0) is not drawn at all",
      [](const Triangle& t, Drawing& to, int) { unless(t, to, [&] { return behind(t) > 0; }); }},
     {"a triangle with one vertex behind the eye (W <= 0) is not drawn at all; those with two are",

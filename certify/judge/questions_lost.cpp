@@ -153,6 +153,10 @@ std::string about_triangles_before(const Questions& questions) {
     if (!single || !shown) continue;
     ++asked;
     if (single->right.count != single->rival.count || shown->right.count == shown->rival.count) continue;
+    // What is as wrong with that one at the end is no matter of what comes after.
+    Scene at_end = without;
+    add_triangle(at_end.draws[0], kind.corners);
+    if (const auto last = answer(questions, at_end); !last || last->right.count != last->rival.count) continue;
     ++bad;
     if (bad <= 3) which += (which.empty() ? "" : ", or ") + std::string(kind.text);
     for (const std::size_t i : {0u, 1u}) {
@@ -165,6 +169,53 @@ std::string about_triangles_before(const Questions& questions) {
   if (lost[0] && lost[1]) return "the triangles of a draw that come after " + which + " are lost";
   if (lost[0] && fine[1]) return "the triangle that comes after " + which + " is lost";
   return "a triangle that comes after " + which + " is wrong: something is kept from triangle to triangle";
+}
+
+// --- what a draw has of the one before it
+
+std::string about_vertex_cache(const Questions& questions) {
+  const std::array<Corners, 2> corners{{{corner(1.125, 1.25), corner(9.5, 2.125), corner(2.25, 9.625)},
+                                        {corner(13.125, 13.25), corner(22.5, 14.125), corner(14.25, 21.625)}}};
+  constexpr std::size_t kFirst = 4 * 24 + 4, kSecond = 16 * 24 + 16;
+  Scene scene = empty_scene(24, 24);
+  add_triangle(scene.draws[0], corners[0], questions.model.culled);
+  add_triangle(scene.draws.emplace_back(), corners[1], questions.model.culled);
+  const auto image = questions.rival(scene);
+  if (!image || image->count.empty() || image->count[kFirst] != 2 || image->count[kSecond] != 0) return "";
+  return "a draw has vertices of the draw before it, those of the same numbers: what was transformed is kept between "
+         "draws";
+}
+
+// --- beyond the ends of rows
+
+std::string about_ends_of_rows(const Questions& questions) {
+  constexpr int kRows = 6, kLeast = 3;
+  constexpr std::array<int, 6> kWidths{21, 22, 23, 25, 26, 28};
+  for (const int n : {4, 8, 16}) {
+    int wrong = 0;
+    bool fits = true;
+    for (const int width : kWidths) {
+      Scene scene = empty_scene(width, kRows);
+      add_triangle(scene.draws[0], {corner(12.25, -60), corner(width + 90.0, 3), corner(12.25, 66)},
+                   questions.model.culled);
+      const auto rival = questions.rival(scene), right = questions.right(scene);
+      if (!rival || !right || rival->count.empty() || right->count.empty()) return "";
+      wrong += rival->count != right->count;
+      std::vector<std::uint32_t> counts = right->count;
+      const int beyond = (width + n - 1) / n * n - width;
+      for (int y = 1; y < kRows; ++y) {
+        for (int x = 0; x < beyond; ++x) ++counts[static_cast<std::size_t>(y * width + x)];
+      }
+      fits = fits && counts == rival->count;
+    }
+    if (wrong < kLeast) return "";
+    if (fits)
+      return text(
+          "pixels are drawn in groups of %.0f, and what of the last group lies beyond the right border comes at the "
+          "start of the next row: it is not masked",
+          n);
+  }
+  return "";
 }
 
 // --- the stride of rows

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 //
-// Questions about who is seen where depths are equal, where depth was there before, and what is written where a test fails.
+// Questions about how often a triangle counts, and who is seen: where depths are equal, where depth was there before, and what is written where a test fails.
 #include "certify/judge/questions.hpp"
 
 namespace surefill::judge {
@@ -109,14 +109,108 @@ std::string about_before(const Questions& questions) {
   return "";
 }
 
+// A near triangle over a part of a block, and a far one over everything.
+std::string about_coarse_depth(const Questions& questions) {
+  constexpr int kWide = 40;
+  Scene scene = empty_scene(kWide, kWide);
+  add_triangle(scene.draws[0], {corner(1.125, 1.25, 0.25), corner(5.5, 2.125, 0.25), corner(2.25, 5.625, 0.25)},
+               questions.model.culled);
+  const auto near = questions.rival(scene);
+  add_triangle(scene.draws[0], over_all(kWide, kWide, 0.75), questions.model.culled);
+  const auto both = questions.rival(scene);
+  if (!near || !both || near->index.empty() || both->index.empty()) return "";
+  for (const int n : {2, 4, 8, 16, 32}) {
+    std::size_t fits = 0, lost = 0;
+    for (int y = 0; y < kWide; ++y) {
+      for (int x = 0; x < kWide; ++x) {
+        const auto s = static_cast<std::size_t>(y * kWide + x);
+        bool touched = false;
+        for (int by = y / n * n; by < std::min(y / n * n + n, kWide); ++by) {
+          for (int bx = x / n * n; bx < std::min(x / n * n + n, kWide); ++bx) {
+            touched = touched || near->index[static_cast<std::size_t>(by * kWide + bx)] == 0;
+          }
+        }
+        const bool covered = near->index[s] == 0, is_lost = touched && !covered;
+        lost += is_lost;
+        fits += covered ? both->index[s] == 0 : both->index[s] == (is_lost ? kNoTriangle : 1u);
+      }
+    }
+    if (lost > 0 && fits == both->index.size()) {
+      const std::string block = std::to_string(n) + " x " + std::to_string(n) + " pixels";
+      return "a triangle that covers a part of a block of " + block +
+             " hides farther ones in all of it: the coarse depth of the block is taken from what covers a part of it";
+    }
+  }
+  return "";
+}
+
+std::string about_negative(const Questions& questions) {
+  const auto one = index_of(questions, layers(questions, DepthTest::less, {-0.25}, false)),
+             falling = index_of(questions, layers(questions, DepthTest::less, {-0.25, -0.75}, false)),
+             rising = index_of(questions, layers(questions, DepthTest::less, {-0.75, -0.25}, false));
+  if (one != 0u || falling != 0u || rising != 1u) return "";
+  return "negative depths are compared the other way round: as the whole numbers that their bits are";
+}
+
 }  // namespace
 
 std::string about_seen(const Questions& questions) {
   if (index_of(questions, layers(questions, DepthTest::less, {0.5}, false)) != 0u) return "";
-  for (const auto& about : {about_failing, about_before, about_equal}) {
+  for (const auto& about : {about_failing, about_coarse_depth, about_negative, about_before, about_equal}) {
     if (std::string sentence = about(questions); !sentence.empty()) return sentence;
   }
   return "";
+}
+
+// Many triangles, one on the other.
+std::string about_counts(const Questions& questions) {
+  std::vector<std::array<std::uint32_t, 2>> got;
+  for (const int n : {1,   2,   3,   4,   7,   8,   9,   15,  16,  17,  31,   32,   33,   63,   64,   65,
+                      127, 128, 129, 255, 256, 257, 300, 511, 512, 513, 1000, 1025, 2049, 4097, 66000}) {
+    Scene scene = empty_scene(8, 8);
+    add_triangle(scene.draws[0], {corner(1.125, 1.25), corner(6.5, 2.125), corner(2.25, 6.625)},
+                 questions.model.culled);
+    scene.draws[0].triangles.assign(static_cast<std::size_t>(n), scene.draws[0].triangles[0]);
+    const auto image = questions.rival(scene);
+    if (!image || image->count.empty()) break;
+    got.push_back({static_cast<std::uint32_t>(n), image->count[3 * 8 + 3]});
+  }
+  if (got.size() < 8) return "";
+  const auto all = [&got](const auto& of) {
+    return std::all_of(got.begin(), got.end(), [&of](const auto& g) { return g[1] == of(g[0]); });
+  };
+  if (all([](std::uint32_t n) { return n; })) return "";
+  std::uint32_t most = 0;
+  for (const auto& g : got) most = std::max(most, g[1]);
+  if (most == 1) {
+    // Each nearer than the one before: all of them pass the depth test.
+    Scene scene = empty_scene(8, 8);
+    for (const double z : {0.75, 0.5, 0.25}) {
+      add_triangle(scene.draws[0], {corner(1.125, 1.25, z), corner(6.5, 2.125, z), corner(2.25, 6.625, z)},
+                   questions.model.culled);
+    }
+    const auto image = questions.rival(scene);
+    if (image && !image->count.empty() && image->count[3 * 8 + 3] == 3) {
+      return "only what passes the depth test is counted, not all that covers a sample";
+    }
+  }
+  if (all([most](std::uint32_t n) { return std::min(n, most); })) return "counts stop at " + std::to_string(most);
+  for (const std::uint32_t bits : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u, 10u, 12u, 16u}) {
+    if (all([bits](std::uint32_t n) { return n & ((1u << bits) - 1); })) {
+      return "counts overflow: they have " + std::to_string(bits) + " bits";
+    }
+  }
+  if (all([](std::uint32_t n) { return 2 * n; })) return "every count is twice what it should be";
+  if (all([](std::uint32_t n) { return n + 1; })) return "every count is 1 too large where anything is drawn";
+  if (all([](std::uint32_t n) { return n - 1; })) return "every count is 1 too small where anything is drawn";
+  if (all([](std::uint32_t n) { return (n + 1) / 2; })) {
+    return "of two triangles that are next to each other in a draw one count is lost where both cover a sample, as by "
+           "two "
+           "workers without a lock";
+  }
+  const auto first = std::find_if(got.begin(), got.end(), [](const auto& g) { return g[0] != g[1]; });
+  return "of " + std::to_string((*first)[0]) + " triangles on each other " + std::to_string((*first)[1]) +
+         " are counted";
 }
 
 }  // namespace surefill::judge

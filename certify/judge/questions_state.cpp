@@ -162,6 +162,38 @@ std::string scissor_fit(const std::vector<Rectangle>& given, const std::vector<R
 
 }  // namespace
 
+namespace {
+
+// Scissors that reach beyond the target.
+std::string about_scissor_beside(const Questions& questions) {
+  constexpr Rectangle kBeside[] = {{-3, 2, 11, 9}, {2, -5, 9, 8}, {-4, -4, 9, 9}, {5, 3, 40, 9}, {4, 2, 9, 50}};
+  std::array<int, 2> wrong{}, empty{}, whole{};  // of those that begin before the target, and those that end beyond it
+  for (std::size_t i = 0; i < std::size(kBeside); ++i) {
+    const Rectangle& r = kBeside[i];
+    Scene scene = over_all_scene(kWidth, kHeight, questions.model.culled);
+    scene.draws[0].scissor = Scissor{r.x0, r.y0, r.x1, r.y1};
+    const auto shown = answer(questions, scene);
+    if (!shown) return "";
+    const std::size_t kind = i < 3 ? 0 : 1;
+    wrong[kind] += shown->right.count != shown->rival.count;
+    const auto drawn = std::ranges::count_if(shown->rival.count, [](std::uint32_t n) { return n != 0; });
+    empty[kind] += drawn == 0, whole[kind] += drawn == kWidth * kHeight;
+  }
+  const auto say = [&](std::size_t kind, int all, const std::string& which) -> std::string {
+    if (wrong[kind] != all) return "";
+    return "with a scissor that " + which + " the target " +
+           (empty[kind] == all   ? "nothing is drawn"
+            : whole[kind] == all ? "everything is drawn"
+                                 : "another part is drawn");
+  };
+  if (std::string sentence = say(0, 3, "begins left of or above"); !sentence.empty()) {
+    return sentence + ": its sides are read without sign, or clamped wrongly";
+  }
+  return say(1, 2, "ends beyond");
+}
+
+}  // namespace
+
 std::string about_scissor(const Questions& questions) {
   constexpr Rectangle kGiven[] = {{3, 2, 11, 9}, {5, 5, 6, 6},  {1, 1, 4, 4},   {12, 8, 16, 12},
                                   {7, 1, 8, 11}, {4, 6, 14, 7}, {1, 1, 15, 11}, {6, 3, 13, 10},
@@ -187,13 +219,36 @@ std::string about_scissor(const Questions& questions) {
     given.push_back(r);
     got.push_back(seen);
   }
-  if (right || given.size() < 6) return "";
+  if (right && given.size() >= 6) return about_scissor_beside(questions);
+  if (given.size() < 6) return "";
   const std::string fit = rectangles ? scissor_fit(given, got) : "";
   if (!fit.empty()) return fit;
   return "draws with a scissor are wrong, without it they are right";
 }
 
 namespace {
+
+// A clockwise triangle of other W whose X and Y, not divided, turn the other way.
+std::string about_culling_divided(const Questions& questions) {
+  constexpr std::size_t kInside = 3 * 8 + 3;
+  const std::array<SceneVertex, 3> c{corner(1.125, 1.25, 0.5, 8), corner(6.5, 2.125, 0.5, 1),
+                                     corner(2.25, 6.625, 0.5, 1)};
+  const double turn =
+      (c[1].x - double{c[0].x}) * (c[2].y - double{c[0].y}) - (c[1].y - double{c[0].y}) * (c[2].x - double{c[0].x});
+  if (turn >= 0) return "";
+  std::array<bool, 3> drawn{};
+  for (std::size_t cull = 0; cull < 3; ++cull) {
+    Scene scene = empty_scene(8, 8);
+    add_triangle(scene.draws[0], c);
+    scene.draws[0].cull = static_cast<Cull>(cull);
+    const auto image = questions.rival(scene);
+    if (!image || image->count.empty()) return "";
+    drawn[cull] = is_covered(*image, kInside);
+  }
+  const bool front = drawn[static_cast<std::size_t>(Cull::front)], back = drawn[static_cast<std::size_t>(Cull::back)];
+  if (!drawn[0] || !front || back) return "";
+  return "culling takes the facing from X and Y before they are divided by W";
+}
 
 // What is culled where one or two vertices are behind the eye.
 std::string about_culling_behind(const Questions& questions) {
@@ -341,7 +396,10 @@ std::string about_culling(const Questions& questions) {
     bool good = true;
     for (std::size_t i = 0; i < 12; ++i)
       good = good && drawn[i / 6][i / 2 % 3][i % 2] == form.of(i / 6, i / 2 % 3, i % 2);
-    if (good && &form == kForms) return about_culling_behind(questions);
+    if (good && &form == kForms) {
+      const std::string divided = about_culling_divided(questions);
+      return divided.empty() ? about_culling_behind(questions) : divided;
+    }
     if (good) return form.text;
     if (&form == kForms) right = false;
   }

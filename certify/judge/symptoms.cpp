@@ -558,4 +558,21 @@ std::vector<std::string> symptoms(std::span<const Wrong> wrong, std::span<const 
   return sentences;
 }
 
+std::vector<std::vector<Scene>> right_without(std::span<const Wrong> wrong, const Trials& trials) {
+  constexpr std::size_t kMost = 12;
+  std::vector<std::vector<Scene>> all;
+  wrong = wrong.first(std::min(wrong.size(), kMost));
+  for (const Part& part : kParts) {
+    std::vector<Scene> right;
+    for (const Wrong& shown : wrong) {
+      Scene scene = shown.scene;
+      if (!part.has(scene)) continue;
+      part.take(scene);
+      if (!trials.still_wrong(scene)) right.push_back(std::move(scene));
+    }
+    if (most(right.size(), wrong.size())) all.push_back(std::move(right));
+  }
+  return all;
+}
+
 }  // namespace surefill::judge

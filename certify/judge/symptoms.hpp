@@ -21,6 +21,10 @@ namespace surefill::judge {
 std::vector<std::string> symptoms(std::span<const Wrong> wrong, std::span<const corpus::Scene> fine,
                                   const Trials& trials);
 
+// Of each part that most of the wrong scenes have, the scenes that are drawn right once it is taken away: what draws them wrong
+// is another fault (drop_refuted).
+std::vector<std::vector<corpus::Scene>> right_without(std::span<const Wrong> wrong, const Trials& trials);
+
 }  // namespace surefill::judge
 
 #endif  // SUREFILL_CERTIFY_JUDGE_SYMPTOMS_HPP

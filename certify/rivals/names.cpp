@@ -167,10 +167,11 @@ std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::s
   constexpr double kSure = 0.9;
   constexpr std::size_t kMost = 3;
   std::vector<std::string> sentences;
-  // The best name, and those that explain as much.
+  // The best name, and another one that explains as much: beside that there is room for what all of it has in common.
   const auto add_names = [&] {
+    const std::size_t most = std::min(kMost, sentences.size() + 2);
     for (const judge::Name& name : names) {
-      if (name.agreement < names.front().agreement || sentences.size() == kMost) break;
+      if (name.agreement < names.front().agreement || sentences.size() == most) break;
       sentences.push_back(name_text(name));
     }
   };
@@ -216,6 +217,12 @@ std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<co
   sentences.insert(sentences.end(), answers.sentences.begin(), answers.sentences.end());
   if (!wrong.empty()) {
     std::vector<judge::Name> names = judge::name_fault(known_faults(), wrong, trials.within);
+    judge::drop_refuted(names, fine, kWithin);
+    if (!names.empty()) {
+      for (const std::vector<Scene>& right : judge::right_without(wrong, trials)) {
+        judge::drop_refuted(names, right, kWithin);
+      }
+    }
     // Where the answers say what it is, a fault that draws some of it says less.
     if (!answers.sentences.empty()) {
       std::erase_if(names, [](const judge::Name& name) { return name.agreement < 0.9; });

@@ -273,6 +273,87 @@ TEST(Questions, CountTriangles) {
   }
 }
 
+// Faults of draws, of rows, of counts, of who is seen.
+TEST(Questions, SayWhatElseIsPlanted) {
+  struct Case {
+    const char* says;
+    std::string (*ask)(const Questions& questions);
+    void (*before)(Scene& scene);
+    void (*after)(const Scene& scene, Image& image);
+  };
+  const auto as_it_is = [](Scene&) {};
+  const auto as_drawn = [](const Scene&, Image&) {};
+  const Case cases[] = {
+      {"next to each other in a draw one count is lost", about_counts, as_it_is,
+       [](const Scene&, Image& i) {
+         for (std::uint32_t& n : i.count) n = (n + 1) / 2;
+       }},
+      {"of the draws before is added to the index once more", about_index, as_it_is,
+       [](const Scene& s, Image& i) {
+         const auto of_draw = static_cast<std::uint32_t>(s.draws[0].triangles.size());
+         for (std::uint32_t& n : i.index) n = n == kNoTriangle ? n : n + n / of_draw * of_draw;
+       }},
+      {"has vertices of the draw before it", about_vertex_cache,
+       [](Scene& s) {
+         for (std::size_t d = 1; d < s.draws.size(); ++d) s.draws[d].vertices = s.draws[0].vertices;
+       },
+       as_drawn},
+      {"in groups of 4, and what of the last group", about_ends_of_rows, as_it_is,
+       [](const Scene& s, Image& i) {
+         const int beyond = (s.width + 3) / 4 * 4 - s.width;
+         for (int y = 1; y < s.height; ++y) {
+           for (int x = 0; x < beyond; ++x) ++i.count[static_cast<std::size_t>(y * s.width + x)];
+         }
+       }},
+      {"a part of a block of 8 x 8 pixels hides farther ones", about_seen, as_it_is,
+       [](const Scene& s, Image& i) {
+         if (s.width != 40 || s.draws[0].triangles.size() != 2) return;
+         for (int p = 0; p < 64; ++p) {
+           std::uint32_t& n = i.index[static_cast<std::size_t>(p / 8 * s.width + p % 8)];
+           n = n == 0 ? 0 : kNoTriangle;
+         }
+       }},
+      {"negative depths are compared the other way round", about_seen,
+       [](Scene& s) {
+         const auto& vertices = s.draws[0].vertices;
+         const auto negative = [](const auto& v) { return v.z < 0; };
+         if (std::all_of(vertices.begin(), vertices.end(), negative)) s.depth_test = DepthTest::greater;
+       },
+       as_drawn},
+      {"begins left of or above the target nothing is drawn", about_scissor,
+       [](Scene& s) {
+         auto& scissor = s.draws[0].scissor;
+         if (scissor && (scissor->x0 < 0 || scissor->y0 < 0)) scissor = Scissor{0, 0, 0, 0};
+       },
+       as_drawn},
+      {"takes the facing from X and Y before they are divided", about_culling,
+       [](Scene& s) {
+         const auto& v = s.draws[0].vertices;
+         const auto turn = [&v](bool divided) {
+           const auto x = [&](std::size_t n) { return divided ? v[n].x / v[n].w : v[n].x; };
+           const auto y = [&](std::size_t n) { return divided ? v[n].y / v[n].w : v[n].y; };
+           return (x(1) - x(0)) * (y(2) - y(0)) - (y(1) - y(0)) * (x(2) - x(0)) > 0;
+         };
+         Cull& cull = s.draws[0].cull;
+         if (cull != Cull::none && turn(true) != turn(false)) cull = cull == Cull::front ? Cull::back : Cull::front;
+       },
+       as_drawn},
+  };
+  for (const Case& one : cases) {
+    const auto drawn = [&one](const Scene& scene) -> std::optional<Image> {
+      Scene changed = scene;
+      one.before(changed);
+      Image image = right_image(changed);
+      one.after(scene, image);
+      return image;
+    };
+    const auto right = [](const Scene& scene) { return std::optional(right_image(scene)); };
+    const std::string said = one.ask({drawn, right, {}, false});
+    EXPECT_NE(said.find(one.says), std::string::npos) << one.says << ": " << said;
+    EXPECT_EQ(one.ask({right, right, {}, false}), "") << one.says;
+  }
+}
+
 // What becomes of triangles on the way to their samples, guessed.
 TEST(Questions, GuessWhatBecomesOfTriangles) {
   using Corner = corpus::SceneVertex;

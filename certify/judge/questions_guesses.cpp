@@ -201,7 +201,7 @@ constexpr Guess kPlain[] = {
      {4, 128, -1}},
     {"only the rows between the first two vertices of a triangle are drawn: its box lacks the third vertex",
      [](const Triangle& t, Drawing& to, int) {
-       const auto [low, high] = std::minmax(divided(t[0].y, t[0]), divided(t[1].y, t[1]));
+       const auto [low, high] = std::minmax({divided(t[0].y, t[0]), divided(t[1].y, t[1])});
        masked(t, to, [&](int, int y) { return y >= std::floor(low) && y <= std::floor(high); });
      }},
 };

@@ -114,4 +114,19 @@ void unrejected_blocks(const Triangle& t, Drawing& to, int n) {
   }
 }
 
+void until_an_empty_row(const Triangle& t, Drawing& to, bool from_the_box) {
+  paint(to, t);
+  const auto box = box_of(t);
+  bool begun = from_the_box, lost = false, unsure = false;
+  for (int y = std::max(0, static_cast<int>(std::floor(box[1]))); y < to.height; ++y) {
+    const auto begin = to.counts.begin() + static_cast<std::ptrdiff_t>(y) * to.width, end = begin + to.width;
+    const bool covered = std::find(begin, end, 1) != end,
+               open = std::any_of(begin, end, [](int n) { return n >= kOpen; });
+    for (auto count = begin; count != end; ++count) *count = lost ? 0 : unsure && *count == 1 ? kOpen : *count;
+    lost = lost || (begun && !covered && !open);
+    unsure = unsure || (!covered && open);
+    begun = begun || covered;
+  }
+}
+
 }  // namespace surefill::judge::drawings

@@ -54,6 +54,9 @@ void scan_lines(const Triangle& t, Drawing& to, int how);
 // Blocks of n x n pixels that no edge has wholly outside are drawn whole: what is far beyond a sharp vertex, too.
 void unrejected_blocks(const Triangle& t, Drawing& to, int n);
 
+// What is below a row without a sample is lost, of a triangle's box or of what it covers; where nobody can say whether a row has one, nobody can say what is below.
+void until_an_empty_row(const Triangle& t, Drawing& to, bool from_the_box);
+
 }  // namespace surefill::judge::drawings
 
 #endif  // SUREFILL_CERTIFY_JUDGE_DRAWINGS_HPP

@@ -358,8 +358,8 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
     return answers;
   }
   if (!questions.slow && say(about_counts(questions))) return answers;
-  if (say(about_states_kept(questions)) || say(about_small(questions)) || say(about_vertex_cache(questions)) ||
-      say(about_triangles_before(questions))) {
+  if (say(about_states_kept(questions)) || say(about_small(questions)) || say(about_tiny(questions)) ||
+      say(about_vertex_cache(questions)) || say(about_triangles_before(questions))) {
     return answers;
   }
   if (!questions.slow && (say(about_precision(questions)) || say(about_slopes(questions)))) return answers;
@@ -380,6 +380,7 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
   const std::string values = how_values_come(questions);
   say(values);
   if (!values.starts_with("depth")) say(about_visibility(questions));
+  if (values.empty() && !say(about_arrays(questions))) say(about_values_of_cut(questions));
   say(about_far(questions));
   if (!say(about_perspective(questions)) && !say(about_eye(questions))) say(about_behind(questions, faults));
   say(about_not_numbers(questions));

@@ -265,6 +265,55 @@ std::string about_many(const Questions& questions) {
   return "with several draws in a frame triangles are lost, with one they are not";
 }
 
+namespace {
+
+// Triangles of given identifiers.
+std::string about_identifiers(const Questions& questions) {
+  constexpr std::array<std::uint32_t, 9> kGiven{
+      3, 200, 300, 5000, 70001, (1u << 24) + 1, (1u << 25) + 3, (1u << 31) + 5, 0xFFFFFFF3u};
+  Scene scene = board(1, questions.model.culled);
+  for (std::size_t t = 0; t < scene.draws[0].triangles.size(); ++t) {
+    scene.draws[0].triangles[t].identifier = kGiven[std::min(t, kGiven.size() - 1)];
+  }
+  scene.draws[0].triangles.resize(kGiven.size());
+  const auto image = questions.rival(scene);
+  if (!image || image->index.empty()) return "";
+  struct Form {
+    const char* text;
+    std::uint32_t (*of)(std::uint32_t given, std::uint32_t t);
+  };
+  constexpr Form kForms[] = {
+      {"", [](std::uint32_t n, std::uint32_t) { return n; }},
+      {"identifiers are ignored: the index is the triangle's place in the draw",
+       [](std::uint32_t, std::uint32_t t) { return t; }},
+      {"identifiers are counted on from the first one: those of the others are not read",
+       [](std::uint32_t, std::uint32_t t) { return 3 + t; }},
+      {"identifiers go through float32: those beyond 2^24 are rounded",
+       [](std::uint32_t n, std::uint32_t) {
+         return static_cast<std::uint32_t>(std::min(double{float(n)}, 4294967295.0));
+       }},
+      {"identifiers have 31 bits: larger ones overflow",
+       [](std::uint32_t n, std::uint32_t) { return n & 0x7FFFFFFFu; }},
+      {"identifiers have 24 bits: larger ones overflow", [](std::uint32_t n, std::uint32_t) { return n & 0xFFFFFFu; }},
+      {"identifiers have 16 bits: larger ones overflow", [](std::uint32_t n, std::uint32_t) { return n & 0xFFFFu; }},
+      {"identifiers have 8 bits: larger ones overflow", [](std::uint32_t n, std::uint32_t) { return n & 0xFFu; }}};
+  for (const Form& form : kForms) {
+    bool fits = true;
+    for (std::uint32_t t = 0; t < kGiven.size() && fits; ++t) {
+      fits = image->index[cell(static_cast<int>(t))] == form.of(kGiven[t], t);
+    }
+    if (fits) return form.text;
+  }
+  // As a float in the image, from which 2^24 and more come back rounded; the largest may be anything.
+  for (std::uint32_t t = 0; t < kGiven.size(); ++t) {
+    if (image->index[cell(static_cast<int>(t))] == kGiven[t]) continue;
+    return text("of large identifiers of triangles some come back wrong, from %.0f on", kGiven[t]);
+  }
+  return "";
+}
+
+}  // namespace
+
 // What is in the index of triangle t, where each has a pixel of its own.
 std::string about_index(const Questions& questions) {
   constexpr int kAll = kCells * kCells;
@@ -330,117 +379,7 @@ std::string about_index(const Questions& questions) {
   if (image && !image->index.empty() && image->index[3 * 8 + 3] == (65999 & 0xFFFF)) {
     return "indices have 16 bits: larger ones overflow";
   }
-  return "";
-}
-
-// A draw of so many vertices.
-std::string about_vertices(const Questions& questions) {
-  for (const int bits : {0, 8, 10, 12, 15, 16}) {
-    const int before = bits == 0 ? 0 : (1 << bits) + 50;
-    Scene scene = empty_scene(16, 16);
-    scene.draws[0].vertices.assign(static_cast<std::size_t>(before), corner(-8, -8));
-    add_triangle(scene.draws[0], {corner(1.125, 1.25), corner(14.5, 2.125), corner(2.25, 14.625)},
-                 questions.model.culled);
-    const auto shown = answer(questions, scene);
-    if (!shown || shown->right.count == shown->rival.count) continue;
-    if (bits == 0) return "";
-    return text("vertex numbers beyond %.0f are taken for others: they have %.0f bits", (1 << bits) - 1, bits);
-  }
-  return "";
-}
-
-namespace {
-
-// --- sizes
-
-// Some triangles side by side all along a target of this length, and in its last columns.
-Scene strip(int length, bool upright, Cull culled) {
-  Scene scene = upright ? empty_scene(6, length) : empty_scene(length, 6);
-  const auto add = [&](double at, double size) {
-    const auto place = [&](double along, double across) {
-      return upright ? corner(across, at + along * size) : corner(at + along * size, across);
-    };
-    add_triangle(scene.draws[0], {place(0, 0.25), place(1, 0.25), place(0, 5.625)}, culled);
-  };
-  for (int at = 0; at + 8 <= length; at += 8) add(at, 8);
-  // The other way round: it ends with the target.
-  add(length, -std::min(length, 8));
-  return scene;
-}
-
-}  // namespace
-
-std::string about_sizes(const Questions& questions) {
-  for (const bool upright : {false, true}) {
-    std::vector<int> wrong, right;
-    int first = 1 << 20;  // of the wrong ones, along the target
-    bool lacks = true, exact = true, last = true;
-    std::vector<std::array<int, 2>> begins;  // of the wrong ones: length, where it begins
-    const auto note = [&](const Wrong& shown, int length) {
-      int begin = length;
-      for (std::size_t s = 0; s < shown.right.count.size(); ++s) {
-        if (shown.right.count[s] == shown.rival.count[s]) continue;
-        lacks = lacks && shown.rival.count[s] < shown.right.count[s];
-        begin = std::min(begin, static_cast<int>(upright ? s / 6 : s % static_cast<std::size_t>(length)));
-      }
-      exact = exact && (first == 1 << 20 || begin == first);
-      last = last && begin == length - 1;
-      begins.push_back({length, begin});
-      first = std::min(first, begin);
-    };
-    for (const int length :
-         {3,   5,   6,   7,   8,   9,    10,   12,   14,   18,   22,   34,   66,   130,  15,   16,   17,   20,   24,
-          31,  32,  33,  40,  48,  63,   64,   65,   96,   100,  127,  128,  129,  160,  200,  255,  256,  257,  300,
-          511, 512, 513, 640, 800, 1000, 1024, 1025, 1280, 2047, 2048, 2049, 3000, 4096, 4097, 8192, 8200, 16384}) {
-      const auto shown = answer(questions, strip(length, upright, questions.model.culled));
-      if (!shown) continue;
-      const bool bad = shown->right.count != shown->rival.count;
-      (bad ? wrong : right).push_back(length);
-      if (bad) note(*shown, length);
-    }
-    if (wrong.empty() || right.size() < 3) continue;
-    const char *side = upright ? "high" : "wide", *lines = upright ? "row" : "column";
-    const auto all = [](const std::vector<int>& of, const auto& is) { return std::all_of(of.begin(), of.end(), is); };
-    if (lacks) {
-      for (const int m : {2, 4, 8, 16, 32, 64}) {
-        const auto odd = [m](int n) { return n % m != 0; };
-        const bool rest = std::ranges::all_of(begins, [m](const auto& b) { return b[1] >= b[0] / m * m; });
-        if (m > 2 && rest && all(wrong, odd) && std::none_of(right.begin(), right.end(), odd)) {
-          return "on targets whose " + std::string(upright ? "height" : "width") + " is no multiple of " +
-                 std::to_string(m) + " the last " + lines + "s, beyond the last whole group of " + std::to_string(m) +
-                 ", are not drawn";
-        }
-      }
-    }
-    if (last && lacks) {
-      for (const int m : {2, 4, 8, 16, 32, 64}) {
-        const auto odd = [m](int n) { return n % m != 0; };
-        if (all(wrong, odd) && std::none_of(right.begin(), right.end(), odd)) {
-          return "the last " + std::string(lines) + " is not drawn of targets whose " + (upright ? "height" : "width") +
-                 " is no multiple of " + std::to_string(m);
-        }
-      }
-    }
-    if (*std::max_element(right.begin(), right.end()) < *std::min_element(wrong.begin(), wrong.end())) {
-      const std::string from = std::to_string(*std::max_element(right.begin(), right.end()));
-      if (exact && lacks && first >= 8) {
-        return "nothing is drawn beyond the first " + std::to_string(first) + " " + lines + "s of a target";
-      }
-      return "targets more than " + from + " pixels " + side + " are wrong" + (lacks ? ": samples are not drawn" : "");
-    }
-    if (*std::max_element(wrong.begin(), wrong.end()) < *std::min_element(right.begin(), right.end())) {
-      return "targets under " + std::to_string(*std::min_element(right.begin(), right.end())) + " pixels " + side +
-             " are wrong" + (lacks ? ": samples are not drawn" : "");
-    }
-    for (const int m : {2, 4, 8, 16, 32, 64}) {
-      const auto odd = [m](int n) { return n % m != 0; };
-      if (all(wrong, odd) && std::none_of(right.begin(), right.end(), odd)) {
-        return std::string("targets whose ") + (upright ? "height" : "width") + " is no multiple of " +
-               std::to_string(m) + " are wrong";
-      }
-    }
-  }
-  return "";
+  return about_identifiers(questions);
 }
 
 // Triangles of which one vertex lies far beside the target.
@@ -561,6 +500,24 @@ std::string about_small(const Questions& questions) {
     return text("triangles thinner than some %.3g pixels are not drawn", drawn[1]);
   }
   return "";
+}
+
+// Triangles beside the sample of their pixel.
+std::string about_tiny(const Questions& questions) {
+  int all = 0, drawn = 0;
+  for (const double dx : {-0.25, 0.25}) {
+    for (const double dy : {-0.25, 0.25}) {
+      const double cx = 7.5 + dx + (dx < 0 ? 0 : -0.125), cy = 7.5 + dy + (dy < 0 ? 0 : -0.125);
+      Scene scene = empty_scene(16, 16);
+      add_triangle(scene.draws[0], {corner(cx, cy), corner(cx + 0.125, cy + 0.03125), corner(cx + 0.03125, cy + 0.125)},
+                   questions.model.culled);
+      const auto shown = answer(questions, scene);
+      if (!shown || shown->right.count[7 * 16 + 7] != 0) return "";
+      ++all, drawn += shown->rival.count[7 * 16 + 7] == 1;
+    }
+  }
+  if (drawn != all) return "";
+  return "a triangle smaller than a pixel is drawn in the pixel that it lies in, though it covers no sample there";
 }
 
 // The same triangle with its corners in another order.

@@ -28,6 +28,7 @@ using drawings::Polygon;
 using drawings::scan_lines;
 using drawings::Triangle;
 using drawings::unrejected_blocks;
+using drawings::until_an_empty_row;
 
 // --- the guesses
 
@@ -128,6 +129,13 @@ void blocks(const Triangle& t, Drawing& to, int wide, int high, const Count& cou
   }
 }
 
+// Tiles of so many pixels, of which the one that the box's end is in is left out; 0: none is in that axis.
+void without_last_tiles(const Triangle& t, Drawing& to, int wide, int high) {
+  const auto box = box_of(t);
+  const auto end = [](double last, int n) { return n == 0 ? INFINITY : n * std::floor(last / n); };
+  masked(t, to, [&](int x, int y) { return x < end(box[2], wide) && y < end(box[3], high); });
+}
+
 // --- of plain triangles on the target
 
 constexpr Guess kPlain[] = {
@@ -199,6 +207,27 @@ constexpr Guess kPlain[] = {
        });
      },
      {4, 128, -1}},
+    {"the last tiles of %d x %d pixels that a triangle's box reaches are lost, on its right and at its lower end: the "
+     "last tile is taken for the first one beyond",
+     [](const Triangle& t, Drawing& to, int n) { without_last_tiles(t, to, n, n); },
+     {4, 128, -1}},
+    {"the last column of tiles that a triangle's box reaches, of %d pixels, is lost: the last tile is taken for the "
+     "first one beyond",
+     [](const Triangle& t, Drawing& to, int n) { without_last_tiles(t, to, n, 0); },
+     {4, 128, -1}},
+    {"the last row of tiles that a triangle's box reaches, of %d pixels, is lost: the last tile is taken for the first "
+     "one beyond",
+     [](const Triangle& t, Drawing& to, int n) { without_last_tiles(t, to, 0, n); },
+     {4, 128, -1}},
+    {"a triangle ends at the first row of its box in which it has no sample: what is below is lost, of slivers above "
+     "all",
+     [](const Triangle& t, Drawing& to, int) { until_an_empty_row(t, to, true); }},
+    {"a triangle ends at its first row without a sample after one that has some: slivers are cut off there",
+     [](const Triangle& t, Drawing& to, int) { until_an_empty_row(t, to, false); }},
+    {"a triangle is cut at the target's height in x and at its width in y: the two are exchanged",
+     [](const Triangle& t, Drawing& to, int) {
+       masked(t, to, [&to](int x, int y) { return x < to.height && y < to.width; });
+     }},
     {"only the rows between the first two vertices of a triangle are drawn: its box lacks the third vertex",
      [](const Triangle& t, Drawing& to, int) {
        const auto [low, high] = std::minmax({divided(t[0].y, t[0]), divided(t[1].y, t[1])});
@@ -217,6 +246,17 @@ void clamped(const Triangle& t, Drawing& to, int how, double beyond) {
     if (how & kY && how & kLow) p.y = std::max(p.y, -beyond);
     if (how & kY && how & kHigh) p.y = std::min(p.y, to.height - less + beyond);
   });
+}
+
+// The box's first whole pixels come to lie at the target's.
+void begun_beyond(const Triangle& t, Drawing& to, int axes) {
+  const auto box = box_of(t);
+  Triangle other = t;
+  for (Point& p : other) {
+    if (axes & kX) p.x -= std::min(0.0, std::floor(box[0])) * p.w;
+    if (axes & kY) p.y -= std::min(0.0, std::floor(box[1])) * p.w;
+  }
+  masked(other, to, [&](int x, int y) { return x <= box[2] && y <= box[3]; });
 }
 
 template <class Dropped>
@@ -271,6 +311,15 @@ constexpr Guess kReach[] = {
        });
      },
      {16, 16384, -1}},
+    {"edges begin at the corner of a triangle's box, and pixels at that of its box within the target: triangles that "
+     "reach beyond the left or the upper border are moved",
+     [](const Triangle& t, Drawing& to, int) { begun_beyond(t, to, kX | kY); }},
+    {"edges begin at the left end of a triangle's box, and pixels at that of its box within the target: triangles that "
+     "reach beyond the left border are moved",
+     [](const Triangle& t, Drawing& to, int) { begun_beyond(t, to, kX); }},
+    {"edges begin at the upper end of a triangle's box, and pixels at that of its box within the target: triangles "
+     "that reach beyond the upper border are moved",
+     [](const Triangle& t, Drawing& to, int) { begun_beyond(t, to, kY); }},
     {"a triangle with a vertex beyond the target is not drawn",
      [](const Triangle& t, Drawing& to, int) { unless(t, to, [&] { return outside(t, to) > 0; }); }},
     {"a triangle with two vertices beyond the target is not drawn",
@@ -570,11 +619,16 @@ std::vector<Shown> shown_of(const Questions& questions, std::uint64_t seed, int 
 std::string about_ways_of_filling(const Questions& questions) {
   std::size_t wrong = 0;
   // Some on a target of many tiles, and small ones.
-  std::vector<Shown> all = shown_of(questions, 0x9A55, 8, 24, 20, [](Random& random, int, int) {
-    return corner(eighth(random, 0, 24), eighth(random, 0, 20));
+  std::vector<Shown> all = shown_of(questions, 0x9A55, 8, 24, 14, [](Random& random, int, int) {
+    return corner(eighth(random, 0, 24), eighth(random, 0, 14));
   });
   for (Shown& shown : shown_of(questions, 0x9A56, 8, 150, 140, [](Random&random, int, int) {
          return corner(eighth(random, 0, 150), eighth(random, 0, 140));
+       })) {
+    all.push_back(std::move(shown));
+  }
+  for (Shown& shown : shown_of(questions, 0x9A57, 12, 70, 60, [](Random&random, int, int i) {
+         return corner(eighth(random, 0, 70), i == 2 ? eighth(random, 50, 60) : eighth(random, 4, 7));
        })) {
     all.push_back(std::move(shown));
   }
@@ -604,7 +658,23 @@ std::string about_eye(const Questions& questions) {
     }
     return corner(x, y, 0.5, n % 4 < 2 ? 1 : 2);
   });
-  return guessed(questions, all, kBehind, wrong);
+  if (std::string found = guessed(questions, all, kBehind, wrong); !found.empty()) return found;
+  Scene scene = empty_scene(16, 16);
+  add_triangle(scene.draws[0], {corner(1.125, 1.25), corner(14.5, 2.125), corner(2.25, 14.625)});
+  const auto inside = [&questions](const Scene& of) {
+    const auto image = questions.rival(of);
+    return image && !image->count.empty() ? static_cast<int>(image->count[4 * 16 + 4]) : -1;
+  };
+  if (questions.model.culled != Cull::none || inside(scene) != 1) return "";
+  Scene mirrored = scene;
+  for (SceneVertex& v : mirrored.draws[0].vertices) v.x = -v.x, v.y = -v.y, v.z = -v.z, v.w = -1;
+  if (inside(mirrored) == 1)
+    return "a triangle wholly behind the eye (all W < 0) is drawn, as its mirror image in front of it";
+  // From the left border to infinity on the right.
+  scene.draws[0].vertices[1] = {8, 1, 0.5, 0, {}};
+  scene.draws[0].vertices[2] = corner(1.25, 14.5);
+  if (inside(scene) == 0 && wrong == 0) return "a triangle with a vertex at infinity (W = 0) is not drawn";
+  return "";
 }
 
 std::string about_perspective(const Questions& questions) {

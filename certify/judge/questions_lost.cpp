@@ -181,9 +181,25 @@ std::string about_vertex_cache(const Questions& questions) {
   add_triangle(scene.draws[0], corners[0], questions.model.culled);
   add_triangle(scene.draws.emplace_back(), corners[1], questions.model.culled);
   const auto image = questions.rival(scene);
-  if (!image || image->count.empty() || image->count[kFirst] != 2 || image->count[kSecond] != 0) return "";
-  return "a draw has vertices of the draw before it, those of the same numbers: what was transformed is kept between "
-         "draws";
+  if (image && !image->count.empty() && image->count[kFirst] == 2 && image->count[kSecond] == 0) {
+    return "a draw has vertices of the draw before it, those of the same numbers: what was transformed is kept between "
+           "draws";
+  }
+  // In one draw, numbers that differ by a power of two.
+  for (const int bits : {2, 3, 4, 5, 6, 7, 8, 10, 12, 16}) {
+    Scene single = empty_scene(24, 24);
+    add_triangle(single.draws[0], corners[0], questions.model.culled);
+    single.draws[0].vertices.resize(std::size_t{1} << bits, corner(-8, -8));
+    add_triangle(single.draws[0], corners[1], questions.model.culled);
+    const auto shown = questions.rival(single);
+    if (!shown || shown->count.empty()) continue;
+    if (shown->count[kFirst] != 2 || shown->count[kSecond] != 0) continue;
+    return text(
+        "a vertex is taken for one that was used before if its number is that one's + %.0f: a vertex cache "
+        "looks at the last %.0f bits alone",
+        1 << bits, bits);
+  }
+  return "";
 }
 
 // --- beyond the ends of rows

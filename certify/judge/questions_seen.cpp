@@ -35,6 +35,15 @@ std::string about_failing(const Questions& questions) {
   if (!image || image->index.empty() || image->depth.empty()) return "";
   const bool near_index = image->index[kMiddle] == 0, near_depth = alike(image->depth[kMiddle], 0.25f),
              far_depth = alike(image->depth[kMiddle], 0.75f);
+  Scene valued = layers(questions, DepthTest::less, {0.25, 0.75, 0.5}, false);
+  valued.attributes = {{"a", 1, Interpolation::perspective}};
+  for (std::size_t i = 0; i < 9; ++i) valued.draws[0].vertices[i].attributes = {static_cast<float>(i / 3 + 1)};
+  const auto values = questions.rival(valued);
+  if (values && near_index && near_depth && values->index[kMiddle] == 0 && !values->attributes.empty() &&
+      !values->attributes[0].empty() && alike(values->attributes[0][kMiddle], 3)) {
+    return "attributes are written where the depth test fails, too: depth is that of the nearest, the attributes are "
+           "those of the last";
+  }
   if (near_index && far_depth) return "depth is written where the depth test fails, too";
   if (image->index[kMiddle] == 1 && near_depth)
     return "the index is written where the depth test fails, too: depth is that of the nearest, the index that of the "

@@ -88,6 +88,9 @@ std::vector<Seen> seen_of(const Questions& questions, const std::vector<Wrong>& 
       std::size_t first = s;
       while (first % kSize != 0 && shown.rival.count[first - 1] != 0) --first;
       one.first_x = static_cast<double>(first % kSize) + questions.model.x.place;
+      std::size_t last = s;
+      while ((last + 1) % kSize != 0 && shown.rival.count[last + 1] != 0) ++last;
+      one.last_x = static_cast<double>(last % kSize) + questions.model.x.place;
       if (take(shown, v, s, one)) seen.push_back(one);
     }
   }

@@ -120,6 +120,27 @@ std::string block_way(const std::vector<Seen>& seen, Kind kind) {
   };
   if (all_are(seen, [&](const Seen& s) { return at_place(s, s.first_x, s.at.y); }))
     return "taken once for each row of a triangle, at its first pixel";
+  for (const int n : {2, 4, 8, 16, 32}) {
+    for (const bool aligned : {false, true}) {
+      const auto begin_of = [&](const Seen& s) {
+        const double from = aligned ? s.at.x - std::floor(s.at.x) : s.first_x;
+        return from + n * std::floor((s.at.x - from) / n);
+      };
+      // The last pixels of a row may be one piece of their own.
+      std::vector<Seen> whole;
+      bool between = false;
+      for (const Seen& s : seen) {
+        if (begin_of(s) + n <= s.last_x) whole.push_back(s), between = between || begin_of(s) != s.at.x;
+      }
+      const auto chord = [&](const Seen& s) {
+        const double x = begin_of(s), low = at_place(s, x, s.at.y), high = at_place(s, x + n, s.at.y);
+        return low + (high - low) * (s.at.x - x) / n;
+      };
+      if (between && all_are(whole, chord) &&
+          !all_are(whole, [&](const Seen& s) { return at_place(s, s.at.x, s.at.y); }))
+        return text("right at every %d-th pixel of a row, and go evenly from one to the next in between", n);
+    }
+  }
   for (const Block& block : kBlocks) {
     const auto first = [](double at, int size) { return at - std::fmod(std::floor(at), size); };
     const auto size = text("%d x %d pixels", block.width, block.height);

@@ -44,7 +44,7 @@ struct Seen {
   At at;
   Three values{};  // at the corners
   double got = 0;
-  double first_x = 0;  // where the row begins, as far as it is covered
+  double first_x = 0, last_x = 0;  // where the row begins and ends, as far as it is covered
 };
 
 inline bool close(double a, double b, double size) {

@@ -1,0 +1,288 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// What asking says of faults of single triangles that are made here, of their values, of vertices and identifiers; and that
+// it says nothing of who is right.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "certify/judge/questions.hpp"
+#include "oracle/oracle.hpp"
+
+namespace surefill::judge {
+namespace {
+
+using corpus::Image;
+using corpus::Scene;
+using corpus::SceneDraw;
+using corpus::SceneVertex;
+
+Image right_image(const Scene& scene) {
+  corpus::Frame frame(scene, {});
+  oracle::render(frame.target(), frame.draws());
+  return std::move(frame.image());
+}
+
+struct Case {
+  const char* says;
+  std::string (*ask)(const Questions& questions);
+  Image (*draw)(const Scene& scene);
+};
+
+// The least x and y of the first triangle, and the largest.
+std::array<double, 4> box_of(const Scene& scene) {
+  std::array<double, 4> box{INFINITY, INFINITY, -INFINITY, -INFINITY};
+  for (const std::uint32_t k : scene.draws[0].triangles[0].vertices) {
+    const SceneVertex& v = scene.draws[0].vertices[k];
+    const double x = double{v.x} / v.w, y = double{v.y} / v.w;
+    box = {std::min(box[0], x), std::min(box[1], y), std::max(box[2], x), std::max(box[3], y)};
+  }
+  return box;
+}
+
+template <typename Keep>
+Image kept(const Scene& scene, const Keep& keep) {
+  Image image = right_image(scene);
+  for (std::size_t s = 0; s < image.count.size(); ++s) {
+    const auto width = static_cast<std::size_t>(scene.width);
+    if (!keep(static_cast<int>(s % width), static_cast<int>(s / width))) image.count[s] = 0;
+  }
+  return image;
+}
+
+Image until_an_empty_row(const Scene& scene, bool begun) {
+  Image image = right_image(scene);
+  bool lost = false;
+  const int first = std::max(0, static_cast<int>(std::floor(box_of(scene)[1])));
+  for (int y = first; y < scene.height; ++y) {
+    const auto begin = image.count.begin() + static_cast<std::ptrdiff_t>(y) * scene.width, end = begin + scene.width;
+    if (lost) std::fill(begin, end, 0);
+    const bool covered = std::find(begin, end, 1u) != end;
+    lost = lost || (begun && !covered);
+    begun = begun || covered;
+  }
+  return image;
+}
+
+Image begun_beyond(const Scene& scene) {
+  const auto box = box_of(scene);
+  Scene moved = scene;
+  for (SceneVertex& v : moved.draws[0].vertices) {
+    v.x -= static_cast<float>(std::min(0.0, std::floor(box[0]))) * v.w;
+    v.y -= static_cast<float>(std::min(0.0, std::floor(box[1]))) * v.w;
+  }
+  return kept(moved, [&](int x, int y) { return x <= box[2] && y <= box[3]; });
+}
+
+// The same counts, and other values: those of the scene as it is cut at W = 1e-5, new vertices half-way in values.
+Image cut_half_way(const Scene& scene) {
+  Image image = right_image(scene);
+  Scene cut = scene;
+  SceneDraw& draw = cut.draws[0];
+  std::vector<SceneVertex> polygon;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const SceneVertex &p = draw.vertices[draw.triangles[0].vertices[i]],
+                      &q = draw.vertices[draw.triangles[0].vertices[(i + 1) % 3]];
+    const double a = p.w - 1e-5, b = q.w - 1e-5;
+    if (a >= 0) polygon.push_back(p);
+    if ((a >= 0) == (b >= 0)) continue;
+    const double t = a / (a - b);
+    SceneVertex v = p;
+    v.x = static_cast<float>(p.x + t * (q.x - p.x)), v.y = static_cast<float>(p.y + t * (q.y - p.y));
+    v.z = static_cast<float>(p.z + t * (q.z - p.z)), v.w = static_cast<float>(p.w + t * (q.w - p.w));
+    for (std::size_t k = 0; k < v.attributes.size(); ++k) v.attributes[k] = (p.attributes[k] + q.attributes[k]) / 2;
+    polygon.push_back(v);
+  }
+  if (polygon.size() < 3) return image;
+  draw.vertices = polygon;
+  draw.triangles = {{{0, 1, 2}, std::nullopt}};
+  if (polygon.size() == 4) draw.triangles.push_back({{0, 2, 3}, std::nullopt});
+  image.attributes = right_image(cut).attributes;
+  return image;
+}
+
+// What is between every eighth pixel of a row goes evenly.
+Image even_between(const Scene& scene) {
+  Image image = right_image(scene);
+  const Image right = image;
+  for (std::size_t k = 0; k < image.attributes.size(); ++k) {
+    const std::size_t n = scene.attributes[k].components, width = static_cast<std::size_t>(scene.width);
+    for (std::size_t s = 0; s < image.count.size(); ++s) {
+      std::size_t first = s, last = s;
+      while (first % width != 0 && image.count[first - 1] != 0) --first;
+      while ((last + 1) % width != 0 && image.count[last + 1] != 0) ++last;
+      const std::size_t from = first + (s - first) / 8 * 8, to = from + 8;
+      if (image.count[s] == 0 || to > last) continue;
+      for (std::size_t c = 0; c < n; ++c) {
+        const double a = right.attributes[k][n * from + c], b = right.attributes[k][n * to + c];
+        image.attributes[k][n * s + c] = static_cast<float>(a + (b - a) * static_cast<double>(s - from) / 8);
+      }
+    }
+  }
+  return image;
+}
+
+Image with_centres(const Scene& scene, bool box_alone) {
+  Image image = right_image(scene);
+  if (scene.samples == 1) return image;
+  Scene centres = scene;
+  centres.samples = 1;
+  Image at_centres = right_image(centres);
+  const auto box = box_of(scene);
+  for (std::size_t s = 0; s < image.count.size(); ++s) {
+    const std::size_t pixel = s / static_cast<std::size_t>(scene.samples),
+                      width = static_cast<std::size_t>(scene.width);
+    const double x = static_cast<double>(pixel % width) + 0.5, y = static_cast<double>(pixel / width) + 0.5;
+    const bool in_box = x >= box[0] && y >= box[1] && x <= box[2] && y <= box[3];
+    if (box_alone ? !in_box : at_centres.count[pixel] == 0) image.count[s] = 0;
+  }
+  return image;
+}
+
+constexpr Case kCases[] = {
+    {"the last tiles of 16 x 16 pixels that a triangle's box reaches are lost", about_ways_of_filling,
+     [](const Scene& s) {
+       const auto box = box_of(s);
+       return kept(s,
+                   [&](int x, int y) { return x < 16 * std::floor(box[2] / 16) && y < 16 * std::floor(box[3] / 16); });
+     }},
+    {"the last column of tiles that a triangle's box reaches, of 64 pixels, is lost", about_ways_of_filling,
+     [](const Scene& s) {
+       const auto box = box_of(s);
+       return kept(s, [&](int x, int) { return x < 64 * std::floor(box[2] / 64); });
+     }},
+    {"a triangle ends at the first row of its box in which it has no sample", about_ways_of_filling,
+     [](const Scene& s) { return until_an_empty_row(s, true); }},
+    {"is cut at the target's height in x and at its width in y", about_ways_of_filling,
+     [](const Scene& s) { return kept(s, [&s](int x, int y) { return x < s.height && y < s.width; }); }},
+    {"edges begin at the corner of a triangle's box", about_reach, begun_beyond},
+    {"a triangle wholly behind the eye (all W < 0) is drawn", about_eye,
+     [](const Scene& s) {
+       Scene turned = s;
+       auto& vertices = turned.draws[0].vertices;
+       if (std::ranges::all_of(vertices, [](const SceneVertex& v) { return v.w < 0; })) {
+         for (SceneVertex& v : vertices) v.x = -v.x, v.y = -v.y, v.z = -v.z, v.w = -v.w;
+       }
+       return right_image(turned);
+     }},
+    {"a triangle with a vertex at infinity (W = 0) is not drawn", about_eye,
+     [](const Scene& s) {
+       Scene less = s;
+       if (std::ranges::any_of(s.draws[0].vertices, [](const SceneVertex& v) { return v.w == 0; }))
+         less.draws[0].triangles.clear();
+       return right_image(less);
+     }},
+    {"is drawn in the pixel that it lies in, though it covers no sample there", about_tiny,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       const auto box = box_of(s);
+       const double x = std::floor(box[0]), y = std::floor(box[1]);
+       if (x == std::floor(box[2]) && y == std::floor(box[3]))
+         image.count[static_cast<std::size_t>(y * s.width + x)] = 1;
+       return image;
+     }},
+    {"identifiers go through float32", about_index,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       for (std::uint32_t& n : image.index) {
+         if (n != kNoTriangle) n = static_cast<std::uint32_t>(std::min(double{static_cast<float>(n)}, 4294967295.0));
+       }
+       return image;
+     }},
+    {"identifiers are ignored", about_index,
+     [](const Scene& s) {
+       Scene other = s;
+       for (SceneDraw& d : other.draws) {
+         for (auto& t : d.triangles) t.identifier.reset();
+       }
+       return right_image(other);
+     }},
+    {"if its number is that one's + 256", about_vertex_cache,
+     [](const Scene& s) {
+       Scene other = s;
+       std::set<std::uint32_t> used;
+       for (SceneDraw& d : other.draws) {
+         for (auto& t : d.triangles) {
+           for (std::uint32_t& v : t.vertices) {
+             if (v >= 256 && used.contains(v - 256)) v -= 256;
+             used.insert(v);
+           }
+         }
+         used.clear();
+       }
+       return right_image(other);
+     }},
+    {"attributes are written where the depth test fails, too", about_visibility,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       if (s.attributes.empty()) return image;
+       const float last = s.draws[0].vertices.back().attributes[0];
+       std::fill(image.attributes[0].begin(), image.attributes[0].end(), last);
+       return image;
+     }},
+    {"right at every 8-th pixel of a row", how_values_come, even_between},
+    {"a sample is covered only where the pixel's centre is, too", about_samples,
+     [](const Scene& s) { return with_centres(s, false); }},
+    {"a triangle's box is that of pixel centres", about_samples, [](const Scene& s) { return with_centres(s, true); }},
+    {"triangles smaller than one are lost where they miss its centre", about_samples,
+     [](const Scene& s) {
+       const auto box = box_of(s);
+       const bool small =
+           std::floor(box[0] + 0.5) == std::floor(box[2] + 0.5) || std::floor(box[1] + 0.5) == std::floor(box[3] + 0.5);
+       Scene other = s;
+       if (s.samples > 1 && small) other.draws[0].triangles.clear();
+       return right_image(other);
+     }},
+    {"blocks of 8 x 8 pixels are drawn whole where they are inside a triangle", about_scissor,
+     [](const Scene& s) {
+       Scene other = s;
+       if (auto& r = other.draws[0].scissor)
+         r = Scissor{r->x0 / 8 * 8, r->y0 / 8 * 8, (r->x1 + 7) / 8 * 8, (r->y1 + 7) / 8 * 8};
+       return right_image(other);
+     }},
+    {"the scissor is ignored in blocks of pixels that a triangle covers whole", about_scissor,
+     [](const Scene& s) {
+       Scene other = s;
+       if (box_of(s)[3] - box_of(s)[1] > 4) other.draws[0].scissor.reset();
+       return right_image(other);
+     }},
+    {"where a triangle is cut at the eye's plane the attributes of new vertices are half-way", about_values_of_cut,
+     cut_half_way},
+    {"flat attributes are wrong, and of others right", about_values_of_cut,
+     [](const Scene& s) {
+       Scene other = s;
+       auto& vertices = other.draws[0].vertices;
+       if (std::ranges::any_of(vertices, [](const SceneVertex& v) { return v.w < 0; }) && !s.attributes.empty() &&
+           s.attributes[0].interpolation == Interpolation::flat) {
+         vertices[0].attributes = vertices[1].attributes;
+       }
+       return right_image(other);
+     }},
+    {"component 0 of array 1 is number 1 of a vertex, not number 2", about_arrays,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       if (s.attributes.size() == 2 && s.attributes[0].components == 2) {
+         for (std::size_t n = 0; n < image.count.size(); ++n)
+           image.attributes[1][3 * n] = image.attributes[0][2 * n + 1];
+       }
+       return image;
+     }},
+};
+
+TEST(Guesses, SayWhatIsPlanted) {
+  const auto right = [](const Scene& scene) { return std::optional(right_image(scene)); };
+  for (const Case& one : kCases) {
+    const auto drawn = [&one](const Scene& scene) -> std::optional<Image> { return one.draw(scene); };
+    const std::string said = one.ask({drawn, right, {}, false});
+    EXPECT_NE(said.find(one.says), std::string::npos) << one.says << ": " << said;
+    EXPECT_EQ(one.ask({right, right, {}, false}), "") << one.says;
+  }
+}
+
+}  // namespace
+}  // namespace surefill::judge

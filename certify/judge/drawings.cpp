@@ -129,4 +129,81 @@ void until_an_empty_row(const Triangle& t, Drawing& to, bool from_the_box) {
   }
 }
 
+namespace {
+
+constexpr double kMargin = 1.0 / 16;
+
+// How far inside of each edge a place is, of a triangle in front of the eye.
+std::array<double, 3> inside_of(const Triangle& t, double x, double y) {
+  const double turn = (t[1].x - t[0].x) * (t[2].y - t[0].y) - (t[1].y - t[0].y) * (t[2].x - t[0].x);
+  std::array<double, 3> distance{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Point &p = t[i], &q = t[(i + 1) % 3];
+    distance[i] =
+        ((q.x - p.x) * (y - p.y) - (q.y - p.y) * (x - p.x)) * (turn < 0 ? -1 : 1) / std::hypot(q.x - p.x, q.y - p.y);
+  }
+  return distance;
+}
+
+}  // namespace
+
+void by_two_corners(const Triangle& t, Drawing& to, int n, const Two& how) {
+  paint(to, t);
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      const double low = how.of_centres ? to.place_x : 0, high = how.of_centres ? n - 1 + to.place_x : n;
+      const double left = x / n * n + low, right = x / n * n + high, top = y / n * n + low, bottom = y / n * n + high;
+      const auto a = inside_of(t, how.falls ? left : right, top), b = inside_of(t, how.falls ? right : left, bottom);
+      double least = INFINITY;
+      for (std::size_t i = 0; i < 3; ++i) {
+        least = std::min(least, how.accepts ? std::min(a[i], b[i]) : std::max(a[i], b[i]));
+      }
+      int& count = to.counts[static_cast<std::size_t>(y * to.width + x)];
+      const int becomes = how.accepts ? 1 : 0;
+      if (how.accepts ? least > kMargin : least < -kMargin) count = becomes;
+      if (std::abs(least) <= kMargin && count != becomes) count = kOpen;
+    }
+  }
+}
+
+void ended_as_rows_above(const Triangle& t, Drawing& to, int n, bool by_centres) {
+  paint(to, t);
+  const double first = std::floor(box_of(t)[0] + (by_centres ? 0.5 : 0));
+  enum { no, yes, unsure };
+  for (int y0 = 0; y0 < to.height; y0 += n) {
+    for (int x0 = 0; x0 < to.width; x0 += n) {
+      int begun = no;
+      for (int y = y0; y < std::min(y0 + n, to.height); ++y) {
+        int ended = no;
+        for (int x = std::max(x0, static_cast<int>(first)); x < std::min(x0 + n, to.width); ++x) {
+          int& count = to.counts[static_cast<std::size_t>(y * to.width + x)];
+          if (count == 0 && begun != no && ended != yes) ended = begun;
+          if (count >= kOpen && begun != no && ended == no) ended = unsure;
+          if (count == 1 && ended == no) begun = yes;
+          if (count != 0 && begun == no) begun = unsure;
+          if (ended != no && count != 0) count = ended == yes ? 0 : kOpen;
+        }
+      }
+    }
+  }
+}
+
+void masks_of_32_bits(const Triangle& t, Drawing& to, bool all) {
+  paint(to, t);
+  const std::vector<int> was = to.counts;
+  for (int y = 0; y < to.height; ++y) {
+    for (int x = 0; x < to.width; ++x) {
+      const auto at = [&](int i, int j) { return was[static_cast<std::size_t>(j * to.width + i)]; };
+      bool whole = true;
+      for (int j = y / 8 * 8; j < std::min(y / 8 * 8 + 8, to.height); ++j) {
+        for (int i = x / 8 * 8; i < std::min(x / 8 * 8 + 8, to.width); ++i) whole = whole && at(i, j) != 0;
+      }
+      int& count = to.counts[static_cast<std::size_t>(y * to.width + x)];
+      if (whole && !all) continue;
+      if (y % 8 >= 4) count = 0;
+      if (y % 8 < 4) count = at(x, y) == 1 ? 1 : y + 4 >= to.height ? kOpen : std::max(at(x, y), at(x, y + 4));
+    }
+  }
+}
+
 }  // namespace surefill::judge::drawings

@@ -57,6 +57,22 @@ void unrejected_blocks(const Triangle& t, Drawing& to, int n);
 // What is below a row without a sample is lost, of a triangle's box or of what it covers; where nobody can say whether a row has one, nobody can say what is below.
 void until_an_empty_row(const Triangle& t, Drawing& to, bool from_the_box);
 
+// Blocks of n x n pixels that an edge takes or leaves whole by two opposite corners of theirs alone.
+struct Two {
+  bool accepts;  // they are covered whole if both are inside of each edge; or rejected if both are outside of one
+  bool falls;    // upper left and lower right, or upper right and lower left
+  bool of_centres = true;  // corners of the block, or the centres of the pixels there
+};
+void by_two_corners(const Triangle& t, Drawing& to, int n, const Two& how);
+
+// In each block of n x n pixels a row ends at the first sample outside after one inside, of that row or of one above it, from
+// the first pixel that the triangle's box touches or whose centre is in it.
+void ended_as_rows_above(const Triangle& t, Drawing& to, int n, bool by_centres);
+
+// Blocks of 8 x 8 pixels whose mask has 32 bits: what the lower four rows cover shows in the upper four. `all`: in blocks
+// that are covered whole, too.
+void masks_of_32_bits(const Triangle& t, Drawing& to, bool all);
+
 }  // namespace surefill::judge::drawings
 
 #endif  // SUREFILL_CERTIFY_JUDGE_DRAWINGS_HPP

@@ -277,7 +277,13 @@ std::string about_identifiers(const Questions& questions) {
   }
   scene.draws[0].triangles.resize(kGiven.size());
   const auto image = questions.rival(scene);
-  if (!image || image->index.empty()) return "";
+  Scene numbered = scene;
+  for (corpus::SceneTriangle& t : numbered.draws[0].triangles) t.identifier.reset();
+  const auto without = questions.rival(numbered);
+  if (!image || image->index.empty() || !without || without->index.empty()) return "";
+  for (std::uint32_t t = 0; t < kGiven.size(); ++t) {
+    if (without->index[cell(static_cast<int>(t))] != t) return "";
+  }
   struct Form {
     const char* text;
     std::uint32_t (*of)(std::uint32_t given, std::uint32_t t);

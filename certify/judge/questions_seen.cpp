@@ -171,6 +171,32 @@ std::string about_seen(const Questions& questions) {
   return "";
 }
 
+// A far triangle after a near one: over a part of a block, and over all of the target.
+std::string about_hidden_counts(const Questions& questions) {
+  constexpr int kWide = 32;
+  std::array<bool, 2> lost{};
+  for (const bool all : {false, true}) {
+    Scene scene = empty_scene(kWide, kWide);
+    for (const double z : {0.25, 0.75}) {
+      std::array<corpus::SceneVertex, 3> c{corner(1.125, 1.25, z), corner(6.5, 2.125, z), corner(2.25, 6.625, z)};
+      if (all) c = {corner(-8, -8, z), corner(88, -8, z), corner(-8, 88, z)};
+      add_triangle(scene.draws[0], c, questions.model.culled);
+    }
+    const auto image = questions.rival(scene);
+    if (!image || image->count.empty()) return "";
+    const std::uint32_t n = image->count[3 * kWide + 3];
+    if ((n != 1 && n != 2) || (!image->index.empty() && image->index[3 * kWide + 3] != 0)) return "";
+    lost[all ? 1 : 0] = n == 1;
+  }
+  if (lost[0] && lost[1]) return "only what passes the depth test is counted, not all that covers a sample";
+  if (lost[1]) {
+    return "a triangle is not counted in blocks of pixels where all is nearer: the block's depth rejects it before it "
+           "is "
+           "counted";
+  }
+  return "";
+}
+
 // Many triangles, one on the other.
 std::string about_counts(const Questions& questions) {
   std::vector<std::array<std::uint32_t, 2>> got;

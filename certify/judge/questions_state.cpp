@@ -61,7 +61,8 @@ std::string about_culling_behind(const Questions& questions) {
     }
     add_triangle(scene.draws[0], c);
     const auto plain = answer(questions, scene);
-    if (!plain || differs(*plain)) return "";
+    if (!plain) continue;
+    if (differs(*plain)) return "";
     if (std::ranges::count(plain->right.count, 0u) + 8 > kSize * kSize) continue;
     std::array<bool, 2> wrong{}, drawn{};
     for (const std::size_t i : {0u, 1u}) {
@@ -176,6 +177,42 @@ std::string about_small_of_samples(const Questions& questions) {
   return "";
 }
 
+// A triangle about one sample of each pixel: are those lost whose pixels lie at the rim of a block?
+std::string about_rims(const Questions& questions) {
+  constexpr int kSide = 16, kSamples = 4;
+  constexpr double kReach = 3.0 / 16;
+  std::vector<int> lost;
+  for (int s = 0; s < kSamples; ++s) {
+    const SampleLocation at = sample_location(kSamples, s);
+    Scene scene = empty_scene(kSide, kSide);
+    scene.samples = kSamples;
+    for (int p = 0; p < kSide * kSide; ++p) {
+      const double x = p % kSide + at.x / 16.0, y = p / kSide + at.y / 16.0;
+      add_triangle(scene.draws[0],
+                   {corner(x - kReach, y - kReach), corner(x + kReach, y - kReach), corner(x, y + kReach)},
+                   questions.model.culled);
+    }
+    const auto image = questions.rival(scene);
+    if (!image || image->count.empty()) return "";
+    for (int p = 0; p < kSide * kSide; ++p) {
+      if (image->count[static_cast<std::size_t>(p * kSamples + s)] == 0) lost.push_back(p);
+    }
+  }
+  if (lost.empty()) return "";
+  for (const int n : {16, 8, 4}) {
+    const auto rim = [n](int p) {
+      const int x = p % kSide % n, y = p / kSide % n;
+      return x == 0 || y == 0 || x == n - 1 || y == n - 1;
+    };
+    if (!std::ranges::all_of(lost, rim)) continue;
+    return text(
+        "with several samples a pixel samples at the rim of blocks of %d x %d pixels are lost: blocks are rejected "
+        "by the centres of their pixels",
+        n, n);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string about_culling(const Questions& questions) {
@@ -261,6 +298,7 @@ struct Ramp {
   std::vector<double> given;
   std::vector<std::uint32_t> count;
   std::vector<float> depth;
+  bool is_torn = false;  // its rows are not alike
 };
 
 std::optional<Ramp> ramp(const Questions& questions, DepthMode mode) {
@@ -279,6 +317,10 @@ std::optional<Ramp> ramp(const Questions& questions, DepthMode mode) {
     ramp.given.push_back(-1 + (x + 0.5) / 16);
     ramp.count.push_back(image->count[s]);
     if (!image->depth.empty()) ramp.depth.push_back(image->depth[s]);
+    for (std::size_t y = 0; y < 4; ++y) {
+      ramp.is_torn =
+          ramp.is_torn || is_covered(*image, y * kLength + static_cast<std::size_t>(x)) != is_covered(*image, s);
+    }
   }
   return ramp;
 }
@@ -301,6 +343,7 @@ bool is_depth(const Ramp& ramp, const Of& of) {
 
 std::string clipping_text(const Ramp& ramp) {
   const auto clamped = [](double z) { return std::clamp(z, 0.0, 1.0); };
+  if (ramp.is_torn) return "where depth is clipped triangles lack a part: of the polygon that is left not all is drawn";
   if (keeps(ramp, 0, 1)) return "";
   if (keeps(ramp, -INFINITY, INFINITY)) {
     return is_depth(ramp, clamped) && !is_depth(ramp, [](double z) { return z; })
@@ -433,8 +476,10 @@ std::string about_samples(const Questions& questions) {
                       static_cast<int>(s), got[s][0], got[s][1], right[s][0], right[s][1]);
     }
   }
-  const std::string small = about_small_of_samples(questions);
-  return small.empty() ? about_depth_of_samples(questions) : small;
+  for (const auto& about : {about_small_of_samples, about_rims, about_depth_of_samples}) {
+    if (std::string sentence = about(questions); !sentence.empty()) return sentence;
+  }
+  return "";
 }
 
 namespace {

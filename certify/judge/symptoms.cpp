@@ -125,7 +125,10 @@ void add_counts(std::span<const Wrong> wrong, std::vector<std::string>& sentence
 
 void add_odd_index(std::span<const Wrong> wrong, std::vector<std::string>& sentences);
 
-void add_index(std::span<const Wrong> wrong, std::vector<std::string>& sentences) {
+void add_index(std::span<const Wrong> all, std::vector<std::string>& sentences) {
+  // Where triangles are lost or come too often, the index says nothing of its own.
+  std::vector<Wrong> wrong(all.begin(), all.end());
+  std::erase_if(wrong, [](const Wrong& shown) { return shown.right.count != shown.rival.count; });
   for (const int more : {1, -1}) {
     const auto moved = [more](std::uint32_t right, std::uint32_t got) {
       return right == kNoTriangle ? got == kNoTriangle : got == right + static_cast<std::uint32_t>(more);

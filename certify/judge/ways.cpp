@@ -141,6 +141,24 @@ std::string block_way(const std::vector<Seen>& seen, Kind kind) {
         return text("right at every %d-th pixel of a row, and go evenly from one to the next in between", n);
     }
   }
+  // Between the first and the last covered pixel of a row, or of its part in a block.
+  for (const int n : {4, 8, 1 << 14}) {
+    const auto ends = [n](const Seen& s) {
+      const double begin = s.at.x - std::fmod(std::floor(s.at.x), n);
+      return std::array{std::max(begin, s.first_x), std::min(begin + n - 1, s.last_x)};
+    };
+    const auto span = [&](const Seen& s) {
+      const auto [low, high] = ends(s);
+      const double a = at_place(s, low, s.at.y), b = at_place(s, high, s.at.y);
+      return high > low ? a + (b - a) * (s.at.x - low) / (high - low) : a;
+    };
+    if (!all_are(seen, span)) continue;
+    return n > 16 ? "right at the first and the last pixel of each row of a triangle, and go evenly in between"
+                  : text(
+                        "right at the first and the last pixel of each row of a triangle in a block of %d pixels, and "
+                        "go evenly in between",
+                        n);
+  }
   for (const Block& block : kBlocks) {
     const auto first = [](double at, int size) { return at - std::fmod(std::floor(at), size); };
     const auto size = text("%d x %d pixels", block.width, block.height);

@@ -171,6 +171,10 @@ std::vector<std::string> departures(const Model& model) {
   if (!same_grid(model.x, model.y)) {
     sentences.push_back("x and y go by different grids: x " + grid_text(model.x) + ", y " + grid_text(model.y));
   }
+  if (model.x.bits >= 0 && (model.x.rounding == Rounding::truncate || model.y.rounding == Rounding::truncate)) {
+    sentences.emplace_back(
+        "positions are rounded toward zero, as by a cast: left of and above the target another way than on it");
+  }
   if (model.culled != Cull::none) {
     sentences.push_back(std::string("it always leaves out ") + (model.culled == Cull::front ? "front" : "back") +
                         " faces (clockwise ones are front)");
@@ -257,6 +261,7 @@ std::string turns_shape(const std::vector<Turn>& turns, bool touching) {
       low[side] = std::min(low[side], t.at());
       high[side] = std::max(high[side], t.at());
     }
+    if (!std::isfinite(low[0] + low[1])) return "";
     if (!(high[0] - low[0] < 1.0 / 256) || !(high[1] - low[1] < 1.0 / 256)) return "";
     reach[static_cast<std::size_t>(axis)] = (low[0] + high[0] - low[1] - high[1]) / 4;
   }

@@ -237,6 +237,37 @@ std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<co
   return sentences;
 }
 
+std::vector<std::string> explain_deaths(const RivalSubject& subject) {
+  const adapters::Rival::Uncounted uncounted(*subject.rival);
+  const auto dies = [&subject](int width, int height) {
+    Scene scene = judge::empty_scene(width, height);
+    judge::add_triangle(scene.draws[0], judge::over_all(width, height), subject.terms.model.culled);
+    try {
+      corpus::Frame frame(scene, outputs_with(*subject.rival, scene));
+      subject.rival->draw(frame.target(), frame.draws());
+    } catch (const adapters::RivalFailure&) {
+      return true;
+    } catch (const std::exception&) {
+    }
+    return false;
+  };
+  for (const bool upright : {false, true}) {
+    std::vector<int> fine, fatal;
+    for (const int length : {64, 96, 16, 24, 20, 22, 21, 23, 17}) {
+      (upright ? dies(16, length) : dies(length, 16)) ? fatal.push_back(length) : fine.push_back(length);
+    }
+    for (const int n : {2, 4, 8, 16, 32}) {
+      const auto multiple = [n](int length) { return length % n == 0; };
+      if (fatal.empty() || !std::ranges::all_of(fine, multiple) || std::ranges::any_of(fatal, multiple)) continue;
+      return {
+          fmt::format("it dies on targets whose {} is no multiple of {}: {} are drawn in groups of {}, and what of the "
+                      "last group lies beyond the image is written there",
+                      upright ? "height" : "width", n, upright ? "rows" : "pixels", n)};
+    }
+  }
+  return {};
+}
+
 std::string name_text(const judge::Name& name) {
   std::string text = fmt::format("{} (explains {:.0f} % of it", name.fault->sentence, 100 * name.agreement);
   if (!name.fault->name.empty()) text += "; the zoo's " + name.fault->name;

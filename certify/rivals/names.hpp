@@ -32,6 +32,9 @@ std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::s
 // triangles are these scenes.
 std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const corpus::Scene> found);
 
+// Of one that dies again and again: on which targets.
+std::vector<std::string> explain_deaths(const RivalSubject& subject);
+
 // "samples on edges belong to both sides (agrees on 97 % of what is wrong; edges-inclusive, seen in ...)".
 std::string name_text(const judge::Name& name);
 

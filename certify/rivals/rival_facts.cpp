@@ -27,7 +27,8 @@ std::vector<std::string> names_of(const RivalSubject& subject, std::span<const C
   }
   const bool failed = std::any_of(results.begin(), results.end(), [](const auto& r) { return r.failed > 0; });
   // Of one whose model nobody knows little is owed: what is odd about it is said all the same, as notes.
-  if ((!failed && subject.terms.known) || subject.rival->given_up()) return {};
+  if (subject.rival->given_up()) return explain_deaths(subject);
+  if (!failed && subject.terms.known) return {};
   return explain_rival(subject, scenes);
 }
 

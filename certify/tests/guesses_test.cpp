@@ -106,7 +106,8 @@ Image cut_half_way(const Scene& scene) {
   return image;
 }
 
-// What is between every eighth pixel of a row goes evenly.
+// What is between every eighth pixel of a row goes evenly, or what is between the first and the last one.
+template <bool kEnds>
 Image even_between(const Scene& scene) {
   Image image = right_image(scene);
   const Image right = image;
@@ -116,11 +117,12 @@ Image even_between(const Scene& scene) {
       std::size_t first = s, last = s;
       while (first % width != 0 && image.count[first - 1] != 0) --first;
       while ((last + 1) % width != 0 && image.count[last + 1] != 0) ++last;
-      const std::size_t from = first + (s - first) / 8 * 8, to = from + 8;
-      if (image.count[s] == 0 || to > last) continue;
+      const std::size_t from = kEnds ? first : first + (s - first) / 8 * 8, to = kEnds ? last : from + 8;
+      if (image.count[s] == 0 || to > last || from == to) continue;
       for (std::size_t c = 0; c < n; ++c) {
         const double a = right.attributes[k][n * from + c], b = right.attributes[k][n * to + c];
-        image.attributes[k][n * s + c] = static_cast<float>(a + (b - a) * static_cast<double>(s - from) / 8);
+        image.attributes[k][n * s + c] =
+            static_cast<float>(a + (b - a) * static_cast<double>(s - from) / static_cast<double>(to - from));
       }
     }
   }
@@ -144,7 +146,111 @@ Image with_centres(const Scene& scene, bool box_alone) {
   return image;
 }
 
+// Blocks of 8 x 8 pixels that an edge has the upper left and the lower right corner outside of are lost.
+Image rejected_by_two_corners(const Scene& scene) {
+  const auto& t = scene.draws[0].triangles[0].vertices;
+  std::array<std::array<double, 2>, 3> p{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const SceneVertex& v = scene.draws[0].vertices[t[i]];
+    p[i] = {double{v.x} / v.w, double{v.y} / v.w};
+  }
+  const auto side = [&p](std::size_t i, double x, double y) {
+    const auto &a = p[i], &b = p[(i + 1) % 3];
+    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+  };
+  const double turn = side(0, p[2][0], p[2][1]);
+  return kept(scene, [&](int x, int y) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double bx = x / 8 * 8, by = y / 8 * 8;
+      if (side(i, bx, by) * turn < 0 && side(i, bx + 8, by + 8) * turn < 0) return false;
+    }
+    return true;
+  });
+}
+
+// Within a block of 8 x 8 pixels, what says that the triangle was entered is kept from row to row.
+Image entered_above(const Scene& scene) {
+  Image image = right_image(scene);
+  const int first = std::max(0, static_cast<int>(std::floor(box_of(scene)[0])));
+  for (int b = 0; b < (scene.width + 7) / 8 * ((scene.height + 7) / 8); ++b) {
+    const int x0 = b % ((scene.width + 7) / 8) * 8, y0 = b / ((scene.width + 7) / 8) * 8;
+    bool entered = false;
+    for (int y = y0; y < std::min(y0 + 8, scene.height); ++y) {
+      bool ended = false;
+      for (int x = std::max(x0, first); x < std::min(x0 + 8, scene.width); ++x) {
+        std::uint32_t& n = image.count[static_cast<std::size_t>(y * scene.width + x)];
+        ended = ended || (entered && n == 0);
+        entered = entered || n != 0;
+        if (ended) n = 0;
+      }
+    }
+  }
+  return image;
+}
+
+Image masks_of_32_bits(const Scene& scene) {
+  Image image = right_image(scene);
+  const Image right = image;
+  for (int y = 0; y < scene.height; ++y) {
+    for (int x = 0; x < scene.width; ++x) {
+      const auto s = static_cast<std::size_t>(y * scene.width + x),
+                 below = s + static_cast<std::size_t>(4 * scene.width);
+      if (y % 8 >= 4) image.count[s] = 0;
+      if (y % 8 < 4 && below < right.count.size()) image.count[s] |= right.count[below];
+    }
+  }
+  return image;
+}
+
+// Samples of the pixels at the rim of a block of 8 x 8 that no triangle has a centre of are lost, where triangles are small.
+Image rims_lost(const Scene& scene) {
+  Image image = right_image(scene);
+  const auto box = box_of(scene);
+  if (scene.samples != 4 || box[2] - box[0] > 1) return image;
+  for (std::size_t s = 0; s < image.count.size(); ++s) {
+    const std::size_t width = static_cast<std::size_t>(scene.width), x = s / 4 % width % 8, y = s / 4 / width % 8;
+    const SampleLocation at = sample_location(4, static_cast<int>(s % 4));
+    if ((x == 0 && at.x < 8) || (x == 7 && at.x > 8) || (y == 0 && at.y < 8) || (y == 7 && at.y > 8))
+      image.count[s] = 0;
+  }
+  return image;
+}
+
 constexpr Case kCases[] = {
+    {"blocks of 8 x 8 pixels are rejected if their upper left and lower right corners", about_ways_of_filling,
+     rejected_by_two_corners},
+    {"in blocks of 8 x 8 pixels a row ends before it begins", about_ways_of_filling, entered_above},
+    {"a mask of 64 bits is made in 32", about_ways_of_filling, masks_of_32_bits},
+    {"rows of a triangle beyond the target's width are lost", about_ways_of_filling,
+     [](const Scene& s) { return kept(s, [&s](int, int y) { return y < s.width; }); }},
+    {"samples at the rim of blocks of 8 x 8 pixels are lost", about_samples, rims_lost},
+    {"a triangle is not counted in blocks of pixels where all is nearer", about_hidden_counts,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       if (box_of(s)[0] < 0) std::fill(image.count.begin(), image.count.end(), 1);
+       return image;
+     }},
+    {"where depth is clipped triangles lack a part", about_depth_modes,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       if (s.draws[0].depth_mode == DepthMode::clip) std::fill(image.count.begin(), image.count.begin() + s.width, 0);
+       return image;
+     }},
+    {"is not taken for level", about_snapped_edges,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       const auto& v = s.draws[0].vertices;
+       if (v[0].y != v[1].y) std::fill(image.count.begin() + 5 * 16, image.count.begin() + 6 * 16, 0);
+       return image;
+     }},
+    {"an edge is rounded another way for each of the two", about_shared_edges,
+     [](const Scene& s) {
+       Scene other = s;
+       // Now and then the second triangle's edge is a little beside the first one's.
+       for (std::size_t i = 3; i < other.draws[0].vertices.size() && s.draws[0].vertices[0].y > 24; ++i)
+         other.draws[0].vertices[i].x += 1e-5f;
+       return right_image(other);
+     }},
     {"the last tiles of 16 x 16 pixels that a triangle's box reaches are lost", about_ways_of_filling,
      [](const Scene& s) {
        const auto box = box_of(s);
@@ -225,7 +331,9 @@ constexpr Case kCases[] = {
        std::fill(image.attributes[0].begin(), image.attributes[0].end(), last);
        return image;
      }},
-    {"right at every 8-th pixel of a row", how_values_come, even_between},
+    {"right at every 8-th pixel of a row", how_values_come, even_between<false>},
+    {"right at the first and the last pixel of each row of a triangle, and go evenly", how_values_come,
+     even_between<true>},
     {"a sample is covered only where the pixel's centre is, too", about_samples,
      [](const Scene& s) { return with_centres(s, false); }},
     {"a triangle's box is that of pixel centres", about_samples, [](const Scene& s) { return with_centres(s, true); }},
@@ -278,7 +386,9 @@ TEST(Guesses, SayWhatIsPlanted) {
   const auto right = [](const Scene& scene) { return std::optional(right_image(scene)); };
   for (const Case& one : kCases) {
     const auto drawn = [&one](const Scene& scene) -> std::optional<Image> { return one.draw(scene); };
-    const std::string said = one.ask({drawn, right, {}, false});
+    Model model;
+    if (one.ask == about_snapped_edges) model.x.bits = model.y.bits = 8;
+    const std::string said = one.ask({drawn, right, model, false});
     EXPECT_NE(said.find(one.says), std::string::npos) << one.says << ": " << said;
     EXPECT_EQ(one.ask({right, right, {}, false}), "") << one.says;
   }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+//
+// Questions about samples that lie on edges, or all but on them: of edges that two triangles share, and of those that are
+// level only once their ends are rounded to the grid.
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "certify/judge/questions.hpp"
+
+namespace surefill::judge {
+
+using corpus::Scene;
+using corpus::SceneVertex;
+
+std::string about_shared_edges(const Questions& questions) {
+  constexpr int kSize = 32, kScenes = 240;
+  Random random(0x5A2ED);
+  int all = 0, twice = 0, never = 0;
+  for (int n = 0; n < kScenes; ++n) {
+    const int px = 8 + static_cast<int>(random.below(16)), py = 8 + static_cast<int>(random.below(16));
+    const double x = px + questions.model.x.place, y = py + questions.model.y.place,
+                 angle = 6.283185307 * random.unit(), dx = std::cos(angle), dy = std::sin(angle),
+                 before = 3 + 40 * random.unit(), after = 3 + 40 * random.unit();
+    const SceneVertex a = corner(x - before * dx, y - before * dy), b = corner(x + after * dx, y + after * dy);
+    Scene scene = empty_scene(kSize, kSize);
+    add_triangle(scene.draws[0], {a, b, corner(x - 9 * dy, y + 9 * dx)}, questions.model.culled);
+    add_triangle(scene.draws[0], {b, a, corner(x + 9 * dy, y - 9 * dx)}, questions.model.culled);
+    const auto image = questions.rival(scene);
+    if (!image || image->count.empty()) return "";
+    const std::uint32_t count = image->count[static_cast<std::size_t>(py * kSize + px)];
+    ++all, twice += count > 1, never += count == 0;
+  }
+  if (twice + never == 0 || 2 * (twice + never) > all) return "";
+  std::array<char, 256> buffer{};
+  std::snprintf(
+      buffer.data(), buffer.size(),
+      "of samples all but on an edge that two triangles share (within 2^-18 pixels) %.1f %% are drawn twice and "
+      "%.1f %% never: an edge is rounded another way for each of the two",
+      100.0 * twice / all, 100.0 * never / all);
+  return buffer.data();
+}
+
+std::string about_snapped_edges(const Questions& questions) {
+  const oracle::AxisModel& axis = questions.model.y;
+  if (axis.bits < 4 || axis.bits > 12 || axis.grid_offset != 0 || axis.rounding > oracle::Rounding::nearest_away)
+    return "";
+  const double y = 5 + axis.place, least = std::ldexp(1.0, -axis.bits - 3);
+  int differ = 0;
+  for (const double apex : {6.25, -4.75}) {
+    std::array<std::array<std::uint32_t, 5>, 3> counts{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double off = least * (static_cast<double>(k) - 1);
+      Scene scene = empty_scene(16, 16);
+      add_triangle(scene.draws[0], {corner(2.25, y + off), corner(12.25, y - off), corner(7.25, y + apex)},
+                   questions.model.culled);
+      const auto image = questions.rival(scene);
+      if (!image || image->count.empty()) return "";
+      for (std::size_t i = 0; i < 5; ++i) counts[k][i] = image->count[5 * 16 + 5 + i];
+    }
+    differ += counts[0] != counts[1] || counts[2] != counts[1];
+  }
+  if (differ == 0) return "";
+  return "an edge that is level only once its ends are rounded to the grid is not taken for level: who owns the "
+         "samples "
+         "on it is decided by positions before they are rounded";
+}
+
+}  // namespace surefill::judge

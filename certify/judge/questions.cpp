@@ -343,7 +343,9 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
       say(about_boxes(questions)) || say(about_pattern(questions))) {
     return answers;
   }
-  if (say(about_vertex_cache(questions)) || (!questions.slow && say(about_many(questions)))) return answers;
+  if (say(about_indices(questions)) || say(about_vertex_cache(questions)) ||
+      (!questions.slow && say(about_many(questions))))
+    return answers;
   Random random(0x91A1);
   int all = 0;
   for (int n = 0; n < 16; ++n) {

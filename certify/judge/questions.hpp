@@ -78,6 +78,7 @@ std::string about_pattern(const Questions& questions);
 std::string about_boxes(const Questions& questions);
 std::string about_many(const Questions& questions);
 std::string about_index(const Questions& questions);
+std::string about_indices(const Questions& questions);
 std::string about_counts(const Questions& questions);
 std::string about_hidden_counts(const Questions& questions);
 std::string about_shared_edges(const Questions& questions);

@@ -96,6 +96,29 @@ void by_corners(const Triangle& t, Drawing& to, int n) {
   drawings::by_two_corners(t, to, n, {kAccepts, kFalls, kOfCentres});
 }
 
+Triangle by_height(Triangle t) {
+  std::sort(t.begin(), t.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+  return t;
+}
+
+// Of the middle vertex, how far right of the edge between the upper and the lower one.
+double middle_side(const Triangle& t) {
+  const auto [low, middle, high] = by_height(t);
+  return middle.x - low.x - (high.x - low.x) * (middle.y - low.y) / (high.y - low.y);
+}
+
+void half(const Triangle& t, Drawing& to, bool lower) {
+  const double y = by_height(t)[1].y;
+  paint(to, t);
+  for (std::size_t i = 0; i < to.counts.size(); ++i) {
+    const double beyond = static_cast<double>(i / static_cast<std::size_t>(to.width)) + to.place_y - y;
+    if (std::abs(beyond) < 1.0 / 16)
+      to.counts[i] = kOpen;
+    else if (to.counts[i] < kOpen && (beyond > 0) != lower)
+      to.counts[i] = 0;
+  }
+}
+
 // --- of plain triangles on the target
 
 constexpr Guess kPlain[] = {
@@ -141,6 +164,21 @@ constexpr Guess kPlain[] = {
        });
      },
      {2, 16, -1}},
+    {"blocks of %d x %d pixels that lie wholly inside a triangle are lost: only those that its edges pass are drawn",
+     [](const Triangle& t, Drawing& to, int n) {
+       blocks(t, to, n, n, [](int covered, int open, int all) {
+         return covered == all ? 0 : covered + open == all ? kOpen : -1;
+       });
+     },
+     {4, 128, -1}},
+    {"triangles whose middle vertex, by y, lies right of the long edge are not drawn",
+     [](const Triangle& t, Drawing& to, int) { unless(t, to, [&] { return middle_side(t) > 0; }); }},
+    {"triangles whose middle vertex, by y, lies left of the long edge are not drawn",
+     [](const Triangle& t, Drawing& to, int) { unless(t, to, [&] { return middle_side(t) < 0; }); }},
+    {"of a triangle only the part below its middle vertex is drawn",
+     [](const Triangle& t, Drawing& to, int) { half(t, to, true); }},
+    {"of a triangle only the part above its middle vertex is drawn",
+     [](const Triangle& t, Drawing& to, int) { half(t, to, false); }},
     {"of a triangle's box only a multiple of %d columns is drawn: the columns that are left over on its right are lost "
      "(a loop "
      "over groups without its rest)",

@@ -21,6 +21,21 @@ std::string text(const char* form, double a, double b) {
 
 }  // namespace
 
+// A triangle whose vertices are not the first ones.
+std::string about_indices(const Questions& questions) {
+  Scene scene = empty_scene(16, 16);
+  const auto at = [](double x, double y) { return corner(x, y); };
+  scene.draws[0].vertices = {at(9.125, 9.25), at(14.5, 9.75), at(9.5, 14.625),
+                             at(1.125, 1.25), at(6.5, 2.125), at(2.25, 6.625)};
+  scene.draws[0].triangles = {{{3, 4, 5}, std::nullopt}, {{5, 3, 4}, std::nullopt}};
+  const auto image = questions.rival(scene);
+  constexpr std::size_t kIndexed = 3 * 16 + 3, kFirst = 10 * 16 + 10;
+  if (!image || image->count.empty()) return "";
+  if (image->count[kIndexed] == 1 && image->count[kFirst] == 1)
+    return "indices are not read: vertices are taken three by three in the order in which they come";
+  return "";
+}
+
 // A draw of so many vertices.
 std::string about_vertices(const Questions& questions) {
   for (const int bits : {0, 8, 10, 12, 15, 16}) {

@@ -516,7 +516,7 @@ std::string about_bits(const Questions& questions) {
     for (const auto& [right, got] : seen) most = std::max(most, std::abs(got - right));
     return most;
   };
-  for (const std::size_t k : {2u, 1u}) {
+  for (const std::size_t k : {2u, 1u, 0u}) {
     const double most = error(deep.seen[k]);
     if (const double off = error(flat.seen[k]); off > 0x1p-15 && off < 0x1p-6) {
       return kNames[k] +

@@ -24,6 +24,17 @@ Three turned(Three l, std::size_t a, std::size_t b, std::size_t c) {
   return {l[a], l[b], l[c]};
 }
 
+// The corners' places in the order of their y, and values that were left behind.
+Three by_height(const At& at, const Three& l) {
+  std::array<std::size_t, 3> order{0, 1, 2};
+  std::stable_sort(order.begin(), order.end(),
+                   [&at](std::size_t a, std::size_t b) { return at.corners[a][1] < at.corners[b][1]; });
+  return {l[order[0]], l[order[1]], l[order[2]]};
+}
+
+constexpr const char* kUnsorted =
+    "those of other vertices: positions are sorted by y, and what belongs to the vertices is not sorted with them";
+
 constexpr Way kWays[] = {
     {"interpolated on the screen, without perspective", [](const At& at) { return at.weights(); }},
     {"interpolated with perspective", [](const At& at) { return divided(at, at.weights()); }},
@@ -60,6 +71,8 @@ constexpr Way kWays[] = {
      [](const At& at) { return turned(at.weights(), 2, 0, 1); }},
     {"those of other vertices, one further: in the order 2, 0, 1",
      [](const At& at) { return turned(at.weights(), 1, 2, 0); }},
+    {kUnsorted, [](const At& at) { return by_height(at, at.weights()); }},
+    {kUnsorted, [](const At& at) { return by_height(at, divided(at, at.weights())); }},
     {"divided by W, and not multiplied by it again: the division at the end is missing",
      [](const At& at) {
        const Three l = at.weights();

@@ -217,6 +217,34 @@ Image rims_lost(const Scene& scene) {
 }
 
 constexpr Case kCases[] = {
+    {"indices are not read", about_indices,
+     [](const Scene& s) {
+       Scene other = s;
+       std::uint32_t next = 0;
+       for (auto& t : other.draws[0].triangles) {
+         for (std::uint32_t& v : t.vertices) v = next++;
+       }
+       return right_image(other);
+     }},
+    {"positions are sorted by y, and what belongs to the vertices is not", how_values_come,
+     [](const Scene& s) {
+       Scene other = s;
+       SceneDraw& draw = other.draws[0];
+       auto order = draw.triangles[0].vertices;
+       const auto y = [&s](std::uint32_t v) { return s.draws[0].vertices[v].y / s.draws[0].vertices[v].w; };
+       std::sort(order.begin(), order.end(), [&y](std::uint32_t a, std::uint32_t b) { return y(a) < y(b); });
+       for (std::size_t i = 0; i < 3; ++i) {
+         draw.vertices[order[i]].attributes = s.draws[0].vertices[draw.triangles[0].vertices[i]].attributes;
+       }
+       return right_image(other);
+     }},
+    {"of a triangle only the part below its middle vertex is drawn", about_ways_of_filling,
+     [](const Scene& s) {
+       std::array<double, 3> y{};
+       for (std::size_t i = 0; i < 3; ++i) y[i] = s.draws[0].vertices[i].y;
+       std::sort(y.begin(), y.end());
+       return kept(s, [&y](int, int row) { return row + 0.5 > y[1]; });
+     }},
     {"blocks of 8 x 8 pixels are rejected if their upper left and lower right corners", about_ways_of_filling,
      rejected_by_two_corners},
     {"in blocks of 8 x 8 pixels a row ends before it begins", about_ways_of_filling, entered_above},

@@ -88,6 +88,37 @@ std::string about_equal(const Questions& questions) {
   return "";
 }
 
+// Of which pixel does each one take the depth that is there before the frame? Bit by bit of the pixel's number.
+std::string about_places_before(const Questions& questions) {
+  constexpr int kWide = 8, kHigh = 6, kPixels = kWide * kHigh;
+  std::array<int, kPixels> from{};
+  for (int bit = 0; 1 << bit < kPixels; ++bit) {
+    Scene scene = empty_scene(kWide, kHigh);
+    add_triangle(scene.draws[0], {corner(-8, -8), corner(56, -8), corner(-8, 56)}, questions.model.culled);
+    for (int p = 0; p < kPixels; ++p) scene.initial_depth.push_back((p >> bit & 1) != 0 ? 0.75f : 0.25f);
+    const auto image = questions.rival(scene);
+    if (!image || image->index.empty()) return "";
+    for (std::size_t p = 0; p < kPixels; ++p) from[p] |= image->index[p] == 0 ? 1 << bit : 0;
+  }
+  struct Form {
+    const char* text;
+    int (*of)(int x, int y);
+  };
+  constexpr Form kForms[] = {{"", [](int x, int y) { return y * kWide + x; }},
+                             {"upside down", [](int x, int y) { return (kHigh - 1 - y) * kWide + x; }},
+                             {"from right to left", [](int x, int y) { return y * kWide + kWide - 1 - x; }},
+                             {"by columns, not by rows", [](int x, int y) { return x * kHigh + y; }},
+                             {"with the height for the stride of rows", [](int x, int y) { return y * kHigh + x; }},
+                             {"of the first pixel, for all", [](int, int) { return 0; }}};
+  for (const Form& form : kForms) {
+    bool fits = true;
+    for (int p = 0; p < kPixels; ++p) fits = fits && from[static_cast<std::size_t>(p)] == form.of(p % kWide, p / kWide);
+    if (fits)
+      return form.text[0] == '\0' ? "" : std::string("the depth that is there before the frame is read ") + form.text;
+  }
+  return "";
+}
+
 std::string about_before(const Questions& questions) {
   for (const DepthTest test : {DepthTest::less, DepthTest::greater}) {
     const bool less = test == DepthTest::less;
@@ -96,6 +127,7 @@ std::string about_before(const Questions& questions) {
     scene.initial_depth = {less ? 0.25f : 0.75f};
     if (index_of(questions, scene) == 0u)
       return std::string(with) + "the depth that is there before the frame is ignored";
+    if (std::string places = about_places_before(questions); !places.empty()) return places;
     for (const int samples : {1, 4}) {
       scene.samples = samples;
       scene.initial_depth.clear();

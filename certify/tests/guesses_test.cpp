@@ -217,6 +217,15 @@ Image rims_lost(const Scene& scene) {
 }
 
 constexpr Case kCases[] = {
+    {"the depth that is there before the frame is read upside down", about_visibility,
+     [](const Scene& s) {
+       Scene other = s;
+       const auto width = static_cast<std::size_t>(s.width);
+       for (std::size_t i = 0; i < s.initial_depth.size() && s.samples == 1 && s.initial_depth.size() > 1; ++i) {
+         other.initial_depth[i] = s.initial_depth[s.initial_depth.size() - width - i / width * width + i % width];
+       }
+       return right_image(other);
+     }},
     {"indices are not read", about_indices,
      [](const Scene& s) {
        Scene other = s;

@@ -147,21 +147,88 @@ std::array<double, 3> inside_of(const Triangle& t, double x, double y) {
 
 }  // namespace
 
-void by_two_corners(const Triangle& t, Drawing& to, int n, const Two& how) {
+void by_corners(const Triangle& t, Drawing& to, int n, const Taken& how) {
   paint(to, t);
+  const bool centres = how.extent == Extent::centres;
+  const double low_x = centres ? to.place_x : 0, low_y = centres ? to.place_y : 0,
+               size = how.extent == Extent::block ? n : n - 1;
   for (int y = 0; y < to.height; ++y) {
     for (int x = 0; x < to.width; ++x) {
-      const double low = how.of_centres ? to.place_x : 0, high = how.of_centres ? n - 1 + to.place_x : n;
-      const double left = x / n * n + low, right = x / n * n + high, top = y / n * n + low, bottom = y / n * n + high;
-      const auto a = inside_of(t, how.falls ? left : right, top), b = inside_of(t, how.falls ? right : left, bottom);
+      const double left = x / n * n + low_x, top = y / n * n + low_y;
+      std::array<std::array<double, 3>, 4>
+          inside{};  // of the corners: upper left, upper right, lower left, lower right
+      for (std::size_t c = 0; c < 4; ++c) {
+        inside[c] = inside_of(t, left + (c % 2 == 0 ? 0 : size), top + (c / 2 == 0 ? 0 : size));
+      }
       double least = INFINITY;
       for (std::size_t i = 0; i < 3; ++i) {
-        least = std::min(least, how.accepts ? std::min(a[i], b[i]) : std::max(a[i], b[i]));
+        const bool grows_right = inside[1][i] > inside[0][i], grows_down = inside[2][i] > inside[0][i];
+        // The corner that tells: the one that is inside most where blocks are rejected, or least where they are accepted.
+        const std::size_t one = (how.corners == Corners::by_a ? grows_right : grows_down) == how.accepts ? 0 : 3;
+        double edge = how.accepts ? INFINITY : -INFINITY;
+        for (std::size_t c = 0; c < 4; ++c) {
+          const bool counts = how.corners == Corners::all       ? true
+                              : how.corners == Corners::falling ? c % 3 == 0
+                              : how.corners == Corners::rising  ? c % 3 != 0
+                                                                : c == one;
+          if (counts) edge = how.accepts ? std::min(edge, inside[c][i]) : std::max(edge, inside[c][i]);
+        }
+        least = std::min(least, edge);
       }
       int& count = to.counts[static_cast<std::size_t>(y * to.width + x)];
       const int becomes = how.accepts ? 1 : 0;
       if (how.accepts ? least > kMargin : least < -kMargin) count = becomes;
       if (std::abs(least) <= kMargin && count != becomes) count = kOpen;
+    }
+  }
+}
+
+void forgotten_edges(const Triangle& t, Drawing& to, int n) {
+  enum { tested, unsure, forgotten };
+  std::array<int, 3> state{tested, tested, tested};
+  const auto box = box_of(t);
+  const auto first = [n](double low) { return std::max(0, static_cast<int>(std::floor(low / n)) * n); };
+  for (int ty = first(box[1]); ty < to.height && ty <= box[3]; ty += n) {
+    for (int tx = first(box[0]); tx < to.width && tx <= box[2]; tx += n) {
+      std::array<double, 3> most{-INFINITY, -INFINITY, -INFINITY}, least{INFINITY, INFINITY, INFINITY};
+      for (const int c : {0, 1, 2, 3}) {
+        const auto inside = inside_of(t, tx + c % 2 * n, ty + c / 2 * n);
+        for (std::size_t i = 0; i < 3; ++i)
+          most[i] = std::max(most[i], inside[i]), least[i] = std::min(least[i], inside[i]);
+      }
+      bool reached = true;
+      for (std::size_t i = 0; i < 3; ++i) {
+        reached = reached && most[i] > 0;
+        if (least[i] > 1) state[i] = forgotten;
+        if (least[i] > -1 && state[i] == tested) state[i] = unsure;  // pixel centres may be looked at, or corners
+      }
+      for (int y = ty; reached && y < std::min(ty + n, to.height); ++y) {
+        for (int x = tx; x < std::min(tx + n, to.width); ++x) {
+          const auto inside = inside_of(t, x + to.place_x, y + to.place_y);
+          // A tile may be drawn whole, or up to the triangle's box.
+          bool covered = true, open = x + 1 < box[0] || x > box[2] || y + 1 < box[1] || y > box[3];
+          for (std::size_t i = 0; i < 3; ++i) {
+            if (state[i] == forgotten) continue;
+            open = open || std::abs(inside[i]) < kMargin || (state[i] == unsure && inside[i] < 0);
+            covered = covered && inside[i] > 0;
+          }
+          to.counts[static_cast<std::size_t>(y * to.width + x)] += open ? kOpen : covered ? 1 : 0;
+        }
+      }
+    }
+  }
+}
+
+void twice_in_the_middle(const Triangle& t, Drawing& to) {
+  paint(to, t);
+  std::array<double, 3> y{t[0].y, t[1].y, t[2].y};
+  std::sort(y.begin(), y.end());
+  // Where they differ, it may be the row that the vertex is in, or the first one below it.
+  const double in = std::floor(y[1]), below = std::floor(y[1] + 0.5);
+  for (const double row : {in, below}) {
+    for (int x = 0; row >= 0 && row < to.height && x < to.width; ++x) {
+      int& count = to.counts[static_cast<std::size_t>(row * to.width + x)];
+      if (count == 1) count = in == below && y[0] < y[1] && y[1] < y[2] ? 2 : kOpen;
     }
   }
 }

@@ -57,13 +57,32 @@ void unrejected_blocks(const Triangle& t, Drawing& to, int n);
 // What is below a row without a sample is lost, of a triangle's box or of what it covers; where nobody can say whether a row has one, nobody can say what is below.
 void until_an_empty_row(const Triangle& t, Drawing& to, bool from_the_box);
 
-// Blocks of n x n pixels that an edge takes or leaves whole by two opposite corners of theirs alone.
-struct Two {
-  bool accepts;  // they are covered whole if both are inside of each edge; or rejected if both are outside of one
-  bool falls;    // upper left and lower right, or upper right and lower left
-  bool of_centres = true;  // corners of the block, or the centres of the pixels there
+// Blocks of n x n pixels that an edge takes or leaves whole by some corners of theirs.
+enum class Corners {
+  falling,
+  rising,
+  all,
+  by_a,
+  by_b
+};  // two opposite ones, all, or one, by the sign of an edge's a or b alone
+enum class Extent {
+  centres,
+  block,
+  a_pixel_less
+};  // where corners are: at pixel centres, at the block's, a pixel too early
+struct Taken {
+  bool
+      accepts;  // they are covered whole if no edge has a corner outside; or rejected if an edge has all of them outside
+  Corners corners;
+  Extent extent;
 };
-void by_two_corners(const Triangle& t, Drawing& to, int n, const Two& how);
+void by_corners(const Triangle& t, Drawing& to, int n, const Taken& how);
+
+// Tiles of n x n pixels, one row after the other, and in each only those edges that have had no tile wholly inside before.
+void forgotten_edges(const Triangle& t, Drawing& to, int n);
+
+// The row that the middle vertex is in is drawn twice: by its upper part and its lower one.
+void twice_in_the_middle(const Triangle& t, Drawing& to);
 
 // In each block of n x n pixels a row ends at the first sample outside after one inside, of that row or of one above it, from
 // the first pixel that the triangle's box touches or whose centre is in it.

@@ -83,7 +83,10 @@ std::string guessed(const Questions& questions, std::span<const Shown> all, std:
     (right ? good : bad).push_back(&shown);
   }
   wrong = bad.size();
-  if (bad.size() < 3) return "";
+  // Of a rival that draws next to nothing many guesses are right.
+  const auto drawn = std::ranges::count_if(
+      all, [](const Shown& s) { return std::ranges::any_of(s.counts, [](std::uint32_t n) { return n != 0; }); });
+  if (bad.size() < 3 || drawn < 4) return "";
   bad.insert(bad.end(), good.begin(), good.end());  // the wrong ones tell sooner
   for (const Guess& guess : guesses) {
     const auto [first, last, step] = guess.numbers;

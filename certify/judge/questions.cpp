@@ -94,29 +94,65 @@ Scene plain_scene(Random& random, int number, Cull culled, int triangles = 1) {
 
 // --- again and again
 
-// Where a near frame hides the far one that comes after it, on a target with incomplete blocks.
-std::string about_clearing(const Questions& questions) {
-  constexpr int kWidth = 45, kHeight = 43;
-  Scene near = empty_scene(kWidth, kHeight);
-  add_triangle(near.draws[0], over_all(kWidth, kHeight, 1.0 / 32), questions.model.culled);
-  Scene far = near;
+// Where something of a frame is left in the next one of the same size: its depth, or all of it.
+struct Left {
+  std::vector<bool> where;
+  bool all = false;
+};
+
+Left left_over(const Questions& questions, int width, int height) {
+  Left left;
+  Scene near = empty_scene(width, height);
+  add_triangle(near.draws[0], over_all(width, height, 1.0 / 32), questions.model.culled);
+  Scene far = near, little = empty_scene(width, height);
   for (SceneVertex& v : far.draws[0].vertices) v.z = 0.75f;
-  const auto first = questions.rival(near), second = questions.rival(far);
-  if (!first || !second || second->index.empty()) return "";
-  const auto lost = std::ranges::count(second->index, kNoTriangle);
-  if (lost == 0 || std::ranges::count(first->index, kNoTriangle) > 0 || lost == kWidth * kHeight) return "";
-  for (const int n : {2, 4, 8, 16, 32}) {
-    bool fits = true;
-    for (int s = 0; s < kWidth * kHeight && fits; ++s) {
-      const bool incomplete = s % kWidth >= kWidth / n * n || s / kWidth >= kHeight / n * n;
-      fits = (second->index[static_cast<std::size_t>(s)] == kNoTriangle) == incomplete;
-    }
-    if (!fits) continue;
-    const std::string blocks = std::to_string(n) + " x " + std::to_string(n) + " pixels";
-    return "depth is not cleared in the incomplete blocks of " + blocks +
-           " at the right and the lower border: what the frame before has drawn there hides what comes";
+  add_triangle(little.draws[0], {corner(1.125, 1.25), corner(3.5, 1.5), corner(1.25, 3.625)}, questions.model.culled);
+  const auto first = questions.rival(near), second = questions.rival(far), third = questions.rival(little);
+  if (!first || !second || !third || first->count.empty() || second->count.empty() || third->count.empty()) return left;
+  if (!second->index.empty() && std::ranges::count(first->index, kNoTriangle) > 0) return left;
+  for (std::size_t s = 0; s < second->count.size(); ++s) {
+    const auto x = s % static_cast<std::size_t>(width), y = s / static_cast<std::size_t>(width);
+    const bool stays =
+        (x >= 4 || y >= 4) && (third->count[s] != 0 || (!third->index.empty() && third->index[s] != kNoTriangle));
+    const bool hidden =
+        (!second->index.empty() && second->index[s] == kNoTriangle) || second->count[s] != first->count[s];
+    left.where.push_back(stays || hidden);
+    left.all = left.all || stays;
   }
-  return "depth is not cleared everywhere: in a part of the target what the frame before has drawn hides what comes";
+  const auto lost = static_cast<std::size_t>(std::count(left.where.begin(), left.where.end(), true));
+  if (lost + 16 >= left.where.size() || lost == 0) left.where.clear();
+  return left;
+}
+
+// On targets with incomplete blocks, and with rows that may stand further apart than they are wide.
+std::string about_clearing(const Questions& questions) {
+  constexpr std::array<std::array<int, 2>, 2> kSizes{{{45, 43}, {33, 43}}};
+  for (const auto& [width, height] : kSizes) {
+    const Left left = left_over(questions, width, height);
+    if (left.where.empty()) continue;
+    const auto is = [&, w = width](const auto& where) {
+      for (int s = 0; s < static_cast<int>(left.where.size()); ++s) {
+        if (left.where[static_cast<std::size_t>(s)] != where(s % w, s / w)) return false;
+      }
+      return true;
+    };
+    const std::string what = left.all ? "the image is not cleared " : "depth is not cleared ";
+    for (const int n : {2, 4, 8, 16, 32, 64}) {
+      const int stride = (width + n - 1) / n * n, columns = width / n * n, rows = height / n * n,
+                pixels = width * height;
+      if (width != 33 && is([=](int x, int y) { return x >= columns || y >= rows; })) {
+        const std::string blocks = std::to_string(n) + " x " + std::to_string(n) + " pixels";
+        return what + "in the incomplete blocks of " + blocks +
+               " at the right and the lower border: what the frame before has drawn there stays";
+      }
+      if (width == 33 && is([=](int x, int y) { return y * stride + x >= pixels; })) {
+        return what + "in the last rows of targets whose width is no multiple of " + std::to_string(n) +
+               ": rows stand as far apart as that, and only width times height places are cleared";
+      }
+    }
+    if (width == 33) return what + "everywhere: in a part of the target what the frame before has drawn stays";
+  }
+  return "";
 }
 
 // Does it draw the same frame alike, at once, and after another one?
@@ -163,6 +199,7 @@ std::string about_repeats(const Questions& questions) {
 struct State {
   const char* name;
   void (*give)(Scene& scene, SceneDraw& draw);
+  Cull cull = Cull::none;  // of the other draws, too
 };
 constexpr State kStates[] = {
     {"a scissor",
@@ -173,20 +210,23 @@ constexpr State kStates[] = {
     {"culling", [](Scene&, SceneDraw& d) { d.cull = Cull::front; }},
     {"counter-clockwise front faces",
      [](Scene&, SceneDraw& d) { d.front_face = FrontFace::counter_clockwise, d.cull = Cull::back; }},
+    {"another front face and the same culling",
+     [](Scene&, SceneDraw& d) { d.front_face = FrontFace::counter_clockwise; }, Cull::back},
     {"depth write off", [](Scene&, SceneDraw& d) { d.depth_write = false; }},
     {"depth clipping", [](Scene&, SceneDraw& d) { d.depth_mode = DepthMode::clip; }},
     {"depth clamping", [](Scene&, SceneDraw& d) { d.depth_mode = DepthMode::clamp; }},
     {"the depth test GREATER", [](Scene& s, SceneDraw&) { s.depth_test = DepthTest::greater; }},
     {"a depth that is there before", [](Scene& s, SceneDraw&) { s.initial_depth = {0.25f}; }},
     {"several samples a pixel", [](Scene& s, SceneDraw&) { s.samples = 4; }}};
-constexpr std::size_t kOfDraws = 7;  // the first ones are a draw's own
+constexpr std::size_t kOfDraws = 8;  // the first ones are a draw's own
 
 // After a frame that has a state, the next one keeps it.
 std::string about_states_kept(const Questions& questions) {
   Random random(0x57A7E);
   for (const State& state : kStates) {
     for (int n = 0; n < 3; ++n) {
-      const Scene scene = plain_scene(random, n, questions.model.culled, 3);
+      Scene scene = plain_scene(random, n, questions.model.culled, 3);
+      scene.draws[0].cull = state.cull;
       Scene with = scene;
       state.give(with, with.draws[0]);
       // It draws the same frame twice alike, or nobody would ask this.
@@ -211,12 +251,20 @@ std::string about_states_of_draws(const Questions& questions, std::span<const Fa
       Scene scene = plain_scene(random, static_cast<int>(n), questions.model.culled, 2);
       Scene other = plain_scene(random, static_cast<int>(n), questions.model.culled, 2);
       scene.draws.push_back(other.draws[0]);
-      const auto plain = answer(questions, scene);
+      for (SceneDraw& draw : scene.draws) draw.cull = kStates[k].cull;
+      // What a frame before has left, one without the state takes away.
+      Scene fresh = plain_scene(random, static_cast<int>(n), questions.model.culled);
+      fresh.width = scene.width, fresh.height = scene.height;
+      const auto answered = [&](const Scene& asked) {
+        (void)questions.rival(fresh);
+        return answer(questions, asked);
+      };
+      const auto plain = answered(scene);
       if (!plain || differs(*plain)) break;
       kStates[k].give(scene, scene.draws[n % 2]);
       Scene single = scene;
       single.draws = {scene.draws[n % 2]};
-      const auto one = answer(questions, single), both = answer(questions, scene);
+      const auto one = answered(single), both = answered(scene);
       if (!one || !both) break;
       alone += differs(*one);
       ++all[n % 2];
@@ -226,6 +274,10 @@ std::string about_states_of_draws(const Questions& questions, std::span<const Fa
     }
     if (all[0] + all[1] < 6 || alone > 1 || wrong.size() < 3) continue;
     const std::vector<Name> names = name_fault(faults, wrong, 0x1p-8);
+    if (kStates[k].cull != Cull::none) {
+      return "of draws with the same culling all have the front face of the first: it is taken over only when culling "
+             "changes";
+    }
     if (!names.empty() && names.front().agreement >= 0.9) return names.front().fault->sentence;
     const char* which = bad[1] == 0   ? " another one after it is wrong"
                         : bad[0] == 0 ? " another one before it is wrong"
@@ -369,9 +421,10 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
     return answers;
   }
   if (!questions.slow && (say(about_precision(questions)) || say(about_slopes(questions)))) return answers;
+  const std::string growth = about_growth(questions), far = growth.empty() ? about_far(questions) : growth;
   if (!questions.slow) {
     say(about_vertices(questions));
-    say(about_sizes(questions));
+    if (far.empty()) say(about_sizes(questions));
   }
   say(about_scissor(questions));
   say(about_culling(questions));
@@ -387,8 +440,9 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
   say(values);
   if (!values.starts_with("depth")) say(about_visibility(questions));
   if (values.empty() && !say(about_arrays(questions))) say(about_values_of_cut(questions));
-  say(about_far(questions));
-  if (!say(about_perspective(questions)) && !say(about_eye(questions))) say(about_behind(questions, faults));
+  say(far);
+  if (!far.ends_with("in 32 bits") && !say(about_perspective(questions)) && !say(about_eye(questions)))
+    say(about_behind(questions, faults));
   say(about_not_numbers(questions));
   // Where it is not known who owns edges, positions may be others than they are thought to be.
   if (answers.sentences.empty() && questions.model.front.open != 0xFF) say(about_bits(questions));

@@ -82,6 +82,7 @@ std::string about_indices(const Questions& questions);
 std::string about_counts(const Questions& questions);
 std::string about_hidden_counts(const Questions& questions);
 std::string about_shared_edges(const Questions& questions);
+std::string about_growth(const Questions& questions);
 std::string about_snapped_edges(const Questions& questions);
 std::string about_vertices(const Questions& questions);
 std::string about_sizes(const Questions& questions);

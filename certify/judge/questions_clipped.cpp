@@ -153,9 +153,8 @@ std::string about_place(const Questions& questions, const Place& place) {
   std::size_t all = 0;
   for (int n = 0; n < 24; ++n) {
     Scene scene = empty_scene(kSize, kSize);
-    // No two kinds in one frame: not everybody draws that. Behind the eye nothing is owed without perspective.
+    // No two kinds in one frame: not everybody draws that.
     const auto kind = static_cast<std::size_t>(n / 2 % 3);
-    if (kind == 1 && place.where == Where::behind) continue;
     constexpr std::array<Interpolation, 3> kInterpolations{Interpolation::perspective, Interpolation::noperspective,
                                                            Interpolation::flat};
     scene.attributes = {{"a", 1, kInterpolations[kind]}};

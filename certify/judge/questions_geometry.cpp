@@ -353,6 +353,18 @@ std::string about_index(const Questions& questions) {
        [](std::uint32_t t, std::uint32_t, std::uint32_t draw) { return t + t / draw * draw; }},
       {"the index is the draw's number, not the triangle's",
        [](std::uint32_t t, std::uint32_t, std::uint32_t draw) { return t / draw; }}};
+  // Triangles that do not show: without area, and beside the target.
+  Scene hidden = board(1, questions.model.culled);
+  SceneDraw& some = hidden.draws[0];
+  some.triangles.resize(4);
+  some.triangles[0].vertices[1] = some.triangles[0].vertices[2];
+  for (const std::uint32_t v : some.triangles[2].vertices) some.vertices[v].x -= 40;
+  const auto shows = questions.rival(hidden);
+  if (shows && !shows->index.empty() && one->index[cell(3)] == 3 && shows->index[cell(1)] == 0 &&
+      shows->index[cell(3)] == 1) {
+    return "the index counts only triangles that are drawn: those before it that have no area or lie beside the target "
+           "are left out";
+  }
   const auto follows = [](const Image& image, const Form& form, int draws) {
     for (int t = 0; t < kAll; ++t) {
       if (image.index[cell(t)] !=
@@ -591,7 +603,14 @@ std::string about_behind(const Questions& questions, std::span<const Fault> faul
     wrong[k].push_back(*shown);
   }
   const auto bad = [&](std::size_t k) { return all[k] >= 3 && 2 * static_cast<int>(wrong[k].size()) >= all[k]; };
-  if (!bad(0) && !bad(1)) return "";
+  if (!bad(0) && !bad(1)) {
+    // Only where cutting leaves many corners, perhaps.
+    const auto few = static_cast<int>(wrong[0].size() + wrong[1].size());
+    if (few < 2 || lacks[0] + lacks[1] != few) return "";
+    return "some triangles with a vertex behind the eye (W <= 0) lack a part: where cutting leaves many corners (five "
+           "and "
+           "more) some of the polygon is lost";
+  }
   std::vector<Wrong> both = wrong[0];
   both.insert(both.end(), wrong[1].begin(), wrong[1].end());
   // A likeness sees the wrong ones alone: it is one only if there are hardly any others.

@@ -13,9 +13,12 @@ namespace {
 
 using drawings::at;
 using drawings::box_of;
+using drawings::Corners;
 using drawings::divided;
 using drawings::Drawing;
 using drawings::ended_as_rows_above;
+using drawings::Extent;
+using drawings::forgotten_edges;
 using drawings::kOpen;
 using drawings::masks_of_32_bits;
 using drawings::paint;
@@ -24,6 +27,7 @@ using drawings::Point;
 using drawings::Polygon;
 using drawings::scan_lines;
 using drawings::Triangle;
+using drawings::twice_in_the_middle;
 using drawings::unrejected_blocks;
 using drawings::until_an_empty_row;
 using guesses::cut;
@@ -91,9 +95,16 @@ void without_last_tiles(const Triangle& t, Drawing& to, int wide, int high) {
   masked(t, to, [&](int x, int y) { return x < end(box[2], wide) && y < end(box[3], high); });
 }
 
-template <bool kAccepts, bool kFalls, bool kOfCentres>
+template <bool kAccepts, Corners kCorners, Extent kExtent>
 void by_corners(const Triangle& t, Drawing& to, int n) {
-  drawings::by_two_corners(t, to, n, {kAccepts, kFalls, kOfCentres});
+  drawings::by_corners(t, to, n, {kAccepts, kCorners, kExtent});
+}
+
+// Of the box's last pixels, those that are the first of a block.
+void ended_before_blocks(const Triangle& t, Drawing& to, int n) {
+  const auto box = box_of(t);
+  const int last_x = static_cast<int>(std::floor(box[2])), last_y = static_cast<int>(std::floor(box[3]));
+  masked(t, to, [=](int x, int y) { return !(x == last_x && last_x % n == 0) && !(y == last_y && last_y % n == 0); });
 }
 
 Triangle by_height(Triangle t) {
@@ -224,36 +235,85 @@ constexpr Guess kPlain[] = {
      [](const Triangle& t, Drawing& to, int) { until_an_empty_row(t, to, false); }},
     {"blocks of %d x %d pixels are taken for covered whole if their upper left and lower right corners are inside of "
      "each edge: the two others are not looked at",
-     by_corners<true, true, true>,
-     {4, 32, -1}},
+     by_corners<true, Corners::falling, Extent::centres>,
+     {4, 64, -1}},
     {"blocks of %d x %d pixels are taken for covered whole if their upper left and lower right corners are inside of "
      "each edge: the two others are not looked at",
-     by_corners<true, true, false>,
-     {4, 32, -1}},
+     by_corners<true, Corners::falling, Extent::block>,
+     {4, 64, -1}},
     {"blocks of %d x %d pixels are taken for covered whole if their upper right and lower left corners are inside of "
      "each edge: the two others are not looked at",
-     by_corners<true, false, true>,
-     {4, 32, -1}},
+     by_corners<true, Corners::rising, Extent::centres>,
+     {4, 64, -1}},
     {"blocks of %d x %d pixels are taken for covered whole if their upper right and lower left corners are inside of "
      "each edge: the two others are not looked at",
-     by_corners<true, false, false>,
-     {4, 32, -1}},
+     by_corners<true, Corners::rising, Extent::block>,
+     {4, 64, -1}},
     {"blocks of %d x %d pixels are rejected if their upper left and lower right corners are outside of an edge: the "
      "two others are not looked at",
-     by_corners<false, true, true>,
-     {4, 32, -1}},
+     by_corners<false, Corners::falling, Extent::centres>,
+     {4, 64, -1}},
     {"blocks of %d x %d pixels are rejected if their upper left and lower right corners are outside of an edge: the "
      "two others are not looked at",
-     by_corners<false, true, false>,
-     {4, 32, -1}},
+     by_corners<false, Corners::falling, Extent::block>,
+     {4, 64, -1}},
     {"blocks of %d x %d pixels are rejected if their upper right and lower left corners are outside of an edge: the "
      "two others are not looked at",
-     by_corners<false, false, true>,
-     {4, 32, -1}},
+     by_corners<false, Corners::rising, Extent::centres>,
+     {4, 64, -1}},
     {"blocks of %d x %d pixels are rejected if their upper right and lower left corners are outside of an edge: the "
      "two others are not looked at",
-     by_corners<false, false, false>,
-     {4, 32, -1}},
+     by_corners<false, Corners::rising, Extent::block>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are taken for covered whole by corners that leave out their last column and row",
+     by_corners<true, Corners::all, Extent::a_pixel_less>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are rejected by corners that leave out their last column and row: what a triangle "
+     "covers there alone is lost",
+     by_corners<false, Corners::all, Extent::a_pixel_less>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are taken for covered whole by the wrong corner of an edge a x + b y + c: it is chosen "
+     "by the sign of a for both axes",
+     by_corners<true, Corners::by_a, Extent::centres>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are taken for covered whole by the wrong corner of an edge a x + b y + c: it is chosen "
+     "by the sign of a for both axes",
+     by_corners<true, Corners::by_a, Extent::block>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are taken for covered whole by the wrong corner of an edge a x + b y + c: it is chosen "
+     "by the sign of b for both axes",
+     by_corners<true, Corners::by_b, Extent::centres>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are taken for covered whole by the wrong corner of an edge a x + b y + c: it is chosen "
+     "by the sign of b for both axes",
+     by_corners<true, Corners::by_b, Extent::block>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are rejected by the wrong corner of an edge a x + b y + c: it is chosen by the sign of "
+     "a for both axes",
+     by_corners<false, Corners::by_a, Extent::centres>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are rejected by the wrong corner of an edge a x + b y + c: it is chosen by the sign of "
+     "a for both axes",
+     by_corners<false, Corners::by_a, Extent::block>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are rejected by the wrong corner of an edge a x + b y + c: it is chosen by the sign of "
+     "b for both axes",
+     by_corners<false, Corners::by_b, Extent::centres>,
+     {4, 64, -1}},
+    {"blocks of %d x %d pixels are rejected by the wrong corner of an edge a x + b y + c: it is chosen by the sign of "
+     "b for both axes",
+     by_corners<false, Corners::by_b, Extent::block>,
+     {4, 64, -1}},
+    {"in tiles of %d x %d pixels an edge that had one tile wholly inside is not tested in those after it: what a tile "
+     "says is kept for the triangle",
+     forgotten_edges,
+     {4, 128, -1}},
+    {"the row that a triangle's middle vertex is in is drawn twice: by the upper part and by the lower one",
+     [](const Triangle& t, Drawing& to, int) { twice_in_the_middle(t, to); }},
+    {"the last column and row that a triangle's box reaches are lost where a block of %d x %d pixels begins with them: "
+     "the loop over blocks ends too early",
+     [](const Triangle& t, Drawing& to, int n) { ended_before_blocks(t, to, n); },
+     {2, 32, -1}},
     {"in blocks of %d x %d pixels a row ends before it begins where a row above it has ended: the flag that says "
      "inside is not reset in each row",
      [](const Triangle& t, Drawing& to, int n) { ended_as_rows_above(t, to, n, true); },

@@ -276,6 +276,19 @@ std::string about_counts(const Questions& questions) {
            "workers without a lock";
   }
   const auto first = std::find_if(got.begin(), got.end(), [](const auto& g) { return g[0] != g[1]; });
+  // Is the nearest one, which comes last, lost?
+  Scene scene = empty_scene(8, 8);
+  for (std::uint32_t n = 0; n < (*first)[0]; ++n) {
+    const double z = n + 1 < (*first)[0] ? 0.5 : 0.25;
+    add_triangle(scene.draws[0], {corner(1.125, 1.25, z), corner(6.5, 2.125, z), corner(2.25, 6.625, z)},
+                 questions.model.culled);
+  }
+  if (const auto image = questions.rival(scene); image && !image->index.empty()) {
+    if (image->index[3 * 8 + 3] + 1 != (*first)[0]) {
+      return "beyond " + std::to_string((*first)[1]) +
+             " triangles in one place further ones are lost: a tile or a block has room for so many";
+    }
+  }
   return "of " + std::to_string((*first)[0]) + " triangles on each other " + std::to_string((*first)[1]) +
          " are counted";
 }

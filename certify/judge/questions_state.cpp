@@ -298,7 +298,8 @@ struct Ramp {
   std::vector<double> given;
   std::vector<std::uint32_t> count;
   std::vector<float> depth;
-  bool is_torn = false;  // its rows are not alike
+  std::vector<bool> seen;  // it has an index
+  bool is_torn = false;    // its rows are not alike
 };
 
 std::optional<Ramp> ramp(const Questions& questions, DepthMode mode) {
@@ -317,6 +318,7 @@ std::optional<Ramp> ramp(const Questions& questions, DepthMode mode) {
     ramp.given.push_back(-1 + (x + 0.5) / 16);
     ramp.count.push_back(image->count[s]);
     if (!image->depth.empty()) ramp.depth.push_back(image->depth[s]);
+    if (!image->index.empty()) ramp.seen.push_back(image->index[s] != kNoTriangle);
     for (std::size_t y = 0; y < 4; ++y) {
       ramp.is_torn =
           ramp.is_torn || is_covered(*image, y * kLength + static_cast<std::size_t>(x)) != is_covered(*image, s);
@@ -346,6 +348,11 @@ std::string clipping_text(const Ramp& ramp) {
   if (ramp.is_torn) return "where depth is clipped triangles lack a part: of the polygon that is left not all is drawn";
   if (keeps(ramp, 0, 1)) return "";
   if (keeps(ramp, -INFINITY, INFINITY)) {
+    bool hidden = !ramp.seen.empty();
+    for (std::size_t i = 0; i < ramp.seen.size(); ++i) {
+      hidden = hidden && ramp.seen[i] == (ramp.given[i] >= 0 && ramp.given[i] <= 1);
+    }
+    if (hidden) return "counts hold what depth clipping takes away: it is counted before it is clipped";
     return is_depth(ramp, clamped) && !is_depth(ramp, [](double z) { return z; })
                ? "depth clipping clamps: what is beyond 0 to 1 is drawn at its limit"
                : "depth clipping does nothing: what is beyond 0 to 1 is drawn";
@@ -554,6 +561,10 @@ std::string about_visibility(const Questions& questions) {
     if (*shown == kNoTriangle) return "with a depth that is there before the frame nothing is seen";
     if (!questions.model.later_wins && *equal == 0)
       return "a triangle as deep as what is there before the frame is seen: it should be nearer";
+  }
+  const auto alone = seen(questions, DepthTest::less, {0.5}, true, std::nullopt, false);
+  if (alone && *alone == kNoTriangle) {
+    return "draws that do not write depth are not seen at all: neither index nor attributes are written";
   }
   const auto read_only = seen(questions, DepthTest::less, {0.25, 0.75}, true, std::nullopt, false);
   if (read_only && *read_only == 0) return "depth is written by draws that should not write it";

@@ -2,6 +2,7 @@
 #include "certify/judge/ways.hpp"
 
 #include <cstdio>
+#include <iterator>
 
 namespace surefill::judge {
 
@@ -238,12 +239,19 @@ std::string way_of_all(const std::vector<Seen>& seen, Kind kind) {
     if (all_are(seen, [&way](const Seen& s) { return mixed(way.weights(s.at), s.values); })) return way.text;
   }
   for (const Place& place : kPlaces) {
-    const auto there = [&](const Seen& s) {
+    const auto at_place = [&place](const Seen& s) {
       At at = s.at;
       at.x += place.x, at.y += place.y;
-      return mixed(right_weights(at, kind), s.values);
+      return at;
     };
-    if (kind != kFlat && all_are(seen, there)) return std::string("taken ") + place.text;
+    // Beyond its edges a triangle may have any values.
+    std::vector<Seen> inside;
+    std::copy_if(seen.begin(), seen.end(), std::back_inserter(inside), [&](const Seen& s) {
+      const Three l = at_place(s).weights();
+      return std::min({l[0], l[1], l[2]}) > 0.01;
+    });
+    const auto there = [&](const Seen& s) { return mixed(right_weights(at_place(s), kind), s.values); };
+    if (kind != kFlat && all_are(inside, there)) return std::string("taken ") + place.text;
   }
   const auto right = [kind](const Seen& s) { return mixed(right_weights(s.at, kind), s.values); };
   if (all_are(seen, [&](const Seen& s) { return std::clamp(right(s), 0.0, 1.0); })) return "clamped to 0 to 1";

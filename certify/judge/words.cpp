@@ -171,6 +171,8 @@ std::vector<std::string> departures(const Model& model) {
   if (!same_grid(model.x, model.y)) {
     sentences.push_back("x and y go by different grids: x " + grid_text(model.x) + ", y " + grid_text(model.y));
   }
+  if (model.x.bits == 0 || model.y.bits == 0)
+    sentences.emplace_back("positions are rounded to whole pixels: there are no subpixels");
   if (model.x.bits >= 0 && (model.x.rounding == Rounding::truncate || model.y.rounding == Rounding::truncate)) {
     sentences.emplace_back(
         "positions are rounded toward zero, as by a cast: left of and above the target another way than on it");

@@ -367,4 +367,10 @@ AdapterFrame::AdapterFrame(const Target& target, std::span<const Draw> draws, co
   image_.attributes = attribute_images_.empty() ? nullptr : attribute_images_.data();
 }
 
+void AdapterFrame::turn_viewports() {
+  for (surefill_adapter_draw& draw : draws_) {
+    draw.viewport_y = static_cast<float>(scene_.height) - draw.viewport_y - draw.viewport_height;
+  }
+}
+
 }  // namespace surefill::adapters

@@ -58,6 +58,8 @@ class AdapterFrame {
   const surefill_adapter_scene& scene() const { return scene_; }
   const surefill_adapter_image& image() const { return image_; }
   const Primitives& primitives() const { return primitives_; }
+  // As viewports are whose y is counted from the bottom row.
+  void turn_viewports();
 
  private:
   struct Storage {

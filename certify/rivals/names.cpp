@@ -186,9 +186,12 @@ std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::s
 
 std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const Scene> found) {
   constexpr std::size_t kMost = 3;
-  if (const std::string which = which_viewports(subject); !which.empty()) {
+  const std::string which = which_viewports(subject);
+  if (const bool turned = which.empty() && turns_viewports(subject); turned || !which.empty()) {
     std::vector<std::string> sentences = subject.conventions;
-    sentences.push_back("it is only wrong under " + which);
+    sentences.push_back(
+        turned ? "the y of a viewport is counted from the bottom row: with height - y - its height for y all is right"
+               : "it is only wrong under " + which);
     return sentences;
   }
   const adapters::Rival::WideViewports wide(*subject.rival);

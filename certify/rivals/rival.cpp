@@ -258,6 +258,7 @@ void Rival::draw_once(Target target, std::span<const Draw> draws) {
   if (up && !initial_depth.empty()) turn_rows(std::span<float>(initial_depth), target.height);
   target.initial_depth = initial_depth;
   AdapterFrame frame(target, draws, clip_form(info_, wide_viewports_ > 0));
+  if (turned_viewports_ > 0) frame.turn_viewports();
   const std::vector<OutputBuffer> outputs = output_buffers(frame.scene(), frame.image());
   std::size_t due = 0;
   for (const OutputBuffer& output : outputs) due += output.size;

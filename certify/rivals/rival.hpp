@@ -46,6 +46,18 @@ inline constexpr std::uint32_t kAllOutputs = SUREFILL_ADAPTER_COUNT | SUREFILL_A
 
 // Thread-safe, but for `set_model`: each thread that draws has a process of its own for as long as it does.
 class Rival {
+  // A number is larger by 1 while this lives.
+  class Raised {
+   public:
+    explicit Raised(std::atomic<int>& number) : number_(number) { ++number_; }
+    ~Raised() { --number_; }
+    Raised(const Raised&) = delete;
+    Raised& operator=(const Raised&) = delete;
+
+   private:
+    std::atomic<int>& number_;
+  };
+
  public:
   // Starts a process and asks who it is. Throws RivalUnopened.
   explicit Rival(RivalOptions options);
@@ -77,27 +89,21 @@ class Rival {
   bool is_reducible() const;
 
   // While one lives, deaths are not counted: for whoever makes such a scene smaller.
-  class Uncounted {
+  class Uncounted : Raised {
    public:
-    explicit Uncounted(Rival& rival) : rival_(rival) { ++rival_.uncounted_; }
-    ~Uncounted() { --rival_.uncounted_; }
-    Uncounted(const Uncounted&) = delete;
-    Uncounted& operator=(const Uncounted&) = delete;
-
-   private:
-    Rival& rival_;
+    explicit Uncounted(Rival& rival) : Raised(rival.uncounted_) {}
   };
 
   // While one lives, viewports are wide ones (frame.hpp): for whoever asks about anything else.
-  class WideViewports {
+  class WideViewports : Raised {
    public:
-    explicit WideViewports(Rival& rival) : rival_(rival) { ++rival_.wide_viewports_; }
-    ~WideViewports() { --rival_.wide_viewports_; }
-    WideViewports(const WideViewports&) = delete;
-    WideViewports& operator=(const WideViewports&) = delete;
+    explicit WideViewports(Rival& rival) : Raised(rival.wide_viewports_) {}
+  };
 
-   private:
-    Rival& rival_;
+  // While one lives, the y of viewports is counted from the bottom row: for whoever asks whether the rival does so.
+  class TurnedViewports : Raised {
+   public:
+    explicit TurnedViewports(Rival& rival) : Raised(rival.turned_viewports_) {}
   };
 
  private:
@@ -117,7 +123,7 @@ class Rival {
   std::string last_failure_;
   std::atomic<int> deaths_ = 0, failures_ = 0;  // a death is a failure, too
   std::atomic<int> timeouts_ = 0;               // all of them
-  std::atomic<int> uncounted_ = 0, wide_viewports_ = 0;
+  std::atomic<int> uncounted_ = 0, wide_viewports_ = 0, turned_viewports_ = 0;
   std::atomic<std::uint64_t> drawn_ = 0;
 };
 

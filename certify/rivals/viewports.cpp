@@ -69,6 +69,23 @@ Scene viewport_scene(const RivalSubject&, std::uint64_t number, std::uint64_t se
   return scene;
 }
 
+bool turns_viewports(const RivalSubject& subject) {
+  constexpr std::uint64_t kScenes = 60, kLeast = 6;
+  Rival& rival = *subject.rival;
+  if (rival.info().form != SUREFILL_ADAPTER_FORM_CLIP) return false;
+  std::uint64_t wrong = 0;
+  for (std::uint64_t n = 0; n < kScenes && !rival.given_up(); ++n) {
+    const Scene scene = viewport_scene(subject, n, n);
+    try {
+      if (const Rival::TurnedViewports turned(rival); judge_scene(scene, subject).differences > 0) return false;
+      wrong += judge_scene(scene, subject).differences > 0;
+    } catch (const std::exception&) {
+      continue;
+    }
+  }
+  return wrong >= kLeast;
+}
+
 std::string which_viewports(const RivalSubject& subject) {
   constexpr std::uint64_t kScenes = 120, kLeast = 6;
   Rival& rival = *subject.rival;

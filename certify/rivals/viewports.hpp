@@ -14,6 +14,9 @@ namespace surefill::certify {
 // A few triangles on the corners of a lattice over a viewport inside the target, of any size: no position is rounded.
 corpus::Scene viewport_scene(const RivalSubject& subject, std::uint64_t number, std::uint64_t seed);
 
+// Is all wrong because the y of viewports is counted from the bottom row?
+bool turns_viewports(const RivalSubject& subject);
+
 // Which viewports it is that are wrong where large ones are right: "under viewports of an odd width"; empty if that is not so.
 std::string which_viewports(const RivalSubject& subject);
 

@@ -146,26 +146,68 @@ Image with_centres(const Scene& scene, bool box_alone) {
   return image;
 }
 
-// Blocks of 8 x 8 pixels that an edge has the upper left and the lower right corner outside of are lost.
-Image rejected_by_two_corners(const Scene& scene) {
-  const auto& t = scene.draws[0].triangles[0].vertices;
+// Of the first triangle's edge i, how far (x, y) is on the inner side.
+double inner_side(const Scene& scene, std::size_t i, double x, double y) {
   std::array<std::array<double, 2>, 3> p{};
-  for (std::size_t i = 0; i < 3; ++i) {
-    const SceneVertex& v = scene.draws[0].vertices[t[i]];
-    p[i] = {double{v.x} / v.w, double{v.y} / v.w};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const SceneVertex& v = scene.draws[0].vertices[scene.draws[0].triangles[0].vertices[k]];
+    p[k] = {double{v.x} / v.w, double{v.y} / v.w};
   }
-  const auto side = [&p](std::size_t i, double x, double y) {
-    const auto &a = p[i], &b = p[(i + 1) % 3];
-    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
+  const auto turn = [&p](std::size_t a, double px, double py) {
+    const auto &from = p[a], &to = p[(a + 1) % 3];
+    return (to[0] - from[0]) * (py - from[1]) - (to[1] - from[1]) * (px - from[0]);
   };
-  const double turn = side(0, p[2][0], p[2][1]);
+  return turn(i, x, y) * (turn(0, p[2][0], p[2][1]) < 0 ? -1 : 1);
+}
+
+// Blocks of 8 x 8 pixels that an edge has these corners outside of are lost.
+template <typename Corners>
+Image rejected(const Scene& scene, const Corners& corners) {
   return kept(scene, [&](int x, int y) {
     for (std::size_t i = 0; i < 3; ++i) {
       const double bx = x / 8 * 8, by = y / 8 * 8;
-      if (side(i, bx, by) * turn < 0 && side(i, bx + 8, by + 8) * turn < 0) return false;
+      bool outside = true;
+      for (const auto& [dx, dy] : corners(i)) outside = outside && inner_side(scene, i, bx + dx, by + dy) < 0;
+      if (outside) return false;
     }
     return true;
   });
+}
+
+using Places = std::vector<std::array<double, 2>>;
+Image rejected_by_two_corners(const Scene& scene) {
+  return rejected(scene, [](std::size_t) { return Places{{0, 0}, {8, 8}}; });
+}
+Image rejected_a_pixel_early(const Scene& scene) {
+  return rejected(scene, [](std::size_t) { return Places{{0, 0}, {7, 0}, {0, 7}, {7, 7}}; });
+}
+// The corner is chosen by which way an edge's inner side lies in x.
+Image rejected_by_a(const Scene& scene) {
+  return rejected(scene, [&](std::size_t i) {
+    const double far = inner_side(scene, i, 1, 0) > inner_side(scene, i, 0, 0) ? 8 : 0;
+    return Places{{far, far}};
+  });
+}
+
+Image twice_in_the_middle(const Scene& scene) {
+  Image image = right_image(scene);
+  std::array<double, 3> y{};
+  for (std::size_t i = 0; i < 3; ++i) y[i] = scene.draws[0].vertices[i].y;
+  std::sort(y.begin(), y.end());
+  for (std::size_t s = 0; s < image.count.size(); ++s) {
+    if (static_cast<double>(s / static_cast<std::size_t>(scene.width)) == std::floor(y[1])) image.count[s] *= 2;
+  }
+  return image;
+}
+
+// Upright edges to the right reach a ten thousandth of the triangle's width further.
+Image grown(const Scene& scene) {
+  Scene other = scene;
+  const auto box = box_of(scene);
+  for (SceneVertex& v : other.draws[0].vertices) {
+    if (v.x == static_cast<float>(box[2])) v.x += static_cast<float>((box[2] - box[0]) / 10000);
+  }
+  return right_image(other);
 }
 
 // Within a block of 8 x 8 pixels, what says that the triangle was entered is kept from row to row.
@@ -217,6 +259,47 @@ Image rims_lost(const Scene& scene) {
 }
 
 constexpr Case kCases[] = {
+    {"by corners that leave out their last column and row", about_ways_of_filling, rejected_a_pixel_early},
+    {"it is chosen by the sign of a for both axes", about_ways_of_filling, rejected_by_a},
+    {"the row that a triangle's middle vertex is in is drawn twice", about_ways_of_filling, twice_in_the_middle},
+    {"by 0.0001 of their height over an edge", about_growth, grown},
+    {"the index counts only triangles that are drawn", about_index,
+     [](const Scene& s) {
+       Scene other = s;
+       for (SceneDraw& d : other.draws) {
+         std::erase_if(d.triangles, [&d, &s](const corpus::SceneTriangle& t) {
+           const auto at = [&](std::size_t i) { return d.vertices[t.vertices[i]]; };
+           return (at(1).x == at(2).x && at(1).y == at(2).y) || (at(0).x < 0 && at(1).x < 0) || s.width == 0;
+         });
+       }
+       return right_image(other);
+     }},
+    {"counts hold what depth clipping takes away", about_depth_modes,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       Scene other = s;
+       other.draws[0].depth_mode = DepthMode::none;
+       image.count = right_image(other).count;
+       return image;
+     }},
+    {"draws that do not write depth are not seen at all", about_visibility,
+     [](const Scene& s) {
+       Scene other = s;
+       for (SceneDraw& d : other.draws) {
+         if (!d.depth_write) d.triangles.clear();
+       }
+       return right_image(other);
+     }},
+    {"noperspective attributes are wrong, and of others right", about_values_of_cut,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       const auto& v = s.draws[0].vertices;
+       if (std::ranges::any_of(v, [](const SceneVertex& c) { return c.w < 0; }) && !s.attributes.empty() &&
+           s.attributes[0].interpolation == Interpolation::noperspective) {
+         for (float& value : image.attributes[0]) value += 1;
+       }
+       return image;
+     }},
     {"the depth that is there before the frame is read upside down", about_visibility,
      [](const Scene& s) {
        Scene other = s;
@@ -429,6 +512,31 @@ TEST(Guesses, SayWhatIsPlanted) {
     EXPECT_NE(said.find(one.says), std::string::npos) << one.says << ": " << said;
     EXPECT_EQ(one.ask({right, right, {}, false}), "") << one.says;
   }
+}
+
+// Of a frame something is left in the next one: here in the last rows, where rows stand further apart than they are wide.
+TEST(Guesses, SayWhatIsNotCleared) {
+  std::vector<std::uint32_t> left;
+  int width = 0;
+  const auto drawn = [&](const Scene& scene) -> std::optional<Image> {
+    Image image = right_image(scene);
+    if (scene.width == width && left.size() == image.count.size() && scene.samples == 1) {
+      for (std::size_t s = 0; s < left.size(); ++s) {
+        const auto w = static_cast<std::size_t>(width), stride = (w + 7) / 8 * 8;
+        if (s / w * stride + s % w >= left.size()) image.count[s] += left[s];
+      }
+    }
+    width = scene.width;
+    left = image.count;
+    return image;
+  };
+  const auto right = [](const Scene& scene) { return std::optional(right_image(scene)); };
+  const std::vector<std::string> sentences = ask({drawn, right, {}, false}, {}).sentences;
+  ASSERT_FALSE(sentences.empty());
+  EXPECT_NE(
+      sentences.front().find("the image is not cleared in the last rows of targets whose width is no multiple of 8"),
+      std::string::npos)
+      << sentences.front();
 }
 
 }  // namespace

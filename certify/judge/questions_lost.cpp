@@ -194,6 +194,15 @@ std::string about_vertex_cache(const Questions& questions) {
     const auto shown = questions.rival(single);
     if (!shown || shown->count.empty()) continue;
     if (shown->count[kFirst] != 2 || shown->count[kSecond] != 0) continue;
+    // Where that one was not used before, it may be the number that has too few bits.
+    single.draws[0].triangles.erase(single.draws[0].triangles.begin());
+    const auto unused = questions.rival(single);
+    if (unused && !unused->count.empty() && unused->count[kFirst] == 1) {
+      return text(
+          "vertex numbers have %.0f bits: larger ones are taken for others, as where an index goes through a "
+          "smaller integer",
+          bits);
+    }
     return text(
         "a vertex is taken for one that was used before if its number is that one's + %.0f: a vertex cache "
         "looks at the last %.0f bits alone",

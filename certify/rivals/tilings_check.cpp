@@ -28,13 +28,13 @@ constexpr double kAround = 1.0 / 16;
 constexpr Size kLarge{1920, 1080}, kMiddle{480, 270}, kSmall{64, 48};
 
 // Lines that the mesh's corners lie near, from before 0 to beyond the length: from 1 to 500 pixels apart, 1 beside 500
-// now and then.
-std::vector<double> lines(Random& random, int length, bool equal) {
+// now and then; or from `least` on, to so many times as much.
+std::vector<double> lines(Random& random, int length, bool equal, double least, double ratio) {
   constexpr double kEqual = 24;
   std::vector<double> at{-kEqual};
   while (at.back() < length + 8) {
-    const double gap = equal ? kEqual : std::exp(std::log(500.0) * random.unit());
-    at.push_back(at.back() + std::max(1.0, gap));
+    const double gap = equal ? kEqual : least * std::exp(std::log(ratio) * random.unit());
+    at.push_back(at.back() + std::max(least, gap));
   }
   return at;
 }
@@ -48,13 +48,16 @@ double room(const std::vector<double>& at, std::size_t i) {
 
 // Quads all over the target and beyond, cut along one diagonal or the other. In perspective W differs from vertex to vertex
 // and is no power of two, so X/W is rounded by whoever divides; neighbours share the rounded vertex.
-Scene mesh(std::uint64_t seed, const Size& size, bool equal, bool perspective) {
+Scene mesh(std::uint64_t seed, const Size& size, bool equal, bool perspective, double least = 1, double ratio = 500,
+           std::uint32_t unused = 0) {
   Random random(seed);
   Scene scene;
   scene.width = size.width;
   scene.height = size.height;
   corpus::SceneDraw& draw = scene.draws.emplace_back();
-  const std::vector<double> xs = lines(random, size.width, equal), ys = lines(random, size.height, equal);
+  draw.vertices.assign(unused, {0, 0, 0.5f, 1, {}});
+  const std::vector<double> xs = lines(random, size.width, equal, least, ratio),
+                            ys = lines(random, size.height, equal, least, ratio);
   for (std::size_t j = 0; j < ys.size(); ++j) {
     for (std::size_t i = 0; i < xs.size(); ++i) {
       const float w = perspective ? static_cast<float>(1 + 15 * random.unit()) : 1;
@@ -69,7 +72,7 @@ Scene mesh(std::uint64_t seed, const Size& size, bool equal, bool perspective) {
   }
   for (std::size_t j = 0; j + 1 < ys.size(); ++j) {
     for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
-      const auto a = static_cast<std::uint32_t>(j * xs.size() + i);
+      const auto a = unused + static_cast<std::uint32_t>(j * xs.size() + i);
       const std::uint32_t b = a + 1, c = a + static_cast<std::uint32_t>(xs.size()), d = c + 1;
       if (random.one_in(2)) {
         draw.triangles.push_back({{a, b, c}, std::nullopt});
@@ -90,16 +93,18 @@ std::vector<std::uint32_t> counts_of(adapters::Rival& rival, const Scene& scene)
 }
 
 std::string found_at(const Scene& scene, std::size_t sample, std::uint32_t count) {
-  const auto width = static_cast<std::size_t>(scene.width);
-  return fmt::format("count of a tiling at pixel ({}, {}): expected 1, got {}", sample % width, sample / width, count);
+  const auto width = static_cast<std::size_t>(scene.width), samples = static_cast<std::size_t>(scene.samples),
+             pixel = sample / samples;
+  return fmt::format("count of a tiling at pixel ({}, {}){}: expected 1, got {}", pixel % width, pixel / width,
+                     samples > 1 ? fmt::format(" sample {}", sample % samples) : "", count);
 }
 
 // The triangles within two pixels of the sample, by their boxes.
 Scene near_sample(const Scene& scene, std::size_t sample) {
   Scene part = scene;
   corpus::SceneDraw& draw = part.draws[0];
-  const auto width = static_cast<std::size_t>(scene.width);
-  const double x = static_cast<double>(sample % width) + 0.5, y = static_cast<double>(sample / width) + 0.5;
+  const auto width = static_cast<std::size_t>(scene.width), pixel = sample / static_cast<std::size_t>(scene.samples);
+  const double x = static_cast<double>(pixel % width) + 0.5, y = static_cast<double>(pixel / width) + 0.5;
   std::erase_if(draw.triangles, [&](const corpus::SceneTriangle& triangle) {
     double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     for (const std::uint32_t v : triangle.vertices) {
@@ -150,7 +155,17 @@ class Sizes {
   std::optional<Size> size_;
 };
 
-Scene mesh_of_case(const Size& size, std::uint64_t number, std::uint64_t seed) {
+// One in eight has vertices of large numbers, and one in eight several samples a pixel, and triangles that have no pixel's centre.
+Scene mesh_of_case(const RivalSubject& subject, const Size& size, std::uint64_t number, std::uint64_t seed) {
+  constexpr std::uint32_t kUnused = 66'000;
+  const Size small{std::min(size.width, kSmall.width), std::min(size.height, kSmall.height)};
+  const bool samples = (subject.rival->info().features & SUREFILL_ADAPTER_SAMPLES) != 0;
+  if (number % 8 == 1 && samples) {
+    Scene scene = mesh(seed, small, false, false, 0.5, 16);
+    scene.samples = 4;
+    return scene;
+  }
+  if (number % 8 == 3 && !subject.slow) return mesh(seed, small, false, false, 1, 500, kUnused);
   return mesh(seed, size, number % 4 == 0, number % 2 == 0);
 }
 
@@ -209,10 +224,12 @@ std::string crack_in(adapters::Rival& rival, const Scene& scene) {
         triangles.emplace_back(properties::triangle_of(draw, triangle));
       }
     }
-    const auto width = static_cast<std::size_t>(scene.width);
+    const auto width = static_cast<std::size_t>(scene.width), samples = static_cast<std::size_t>(scene.samples);
     for (std::size_t s = 0; s < counts.size(); ++s) {
       if (counts[s] == 1) continue;
-      const double x = static_cast<double>(s % width) + 0.5, y = static_cast<double>(s / width) + 0.5;
+      const SampleLocation at = sample_location(scene.samples, static_cast<int>(s % samples));
+      const double x = static_cast<double>(s / samples % width) + at.x / 16.0,
+                   y = static_cast<double>(s / samples / width) + at.y / 16.0;
       if (covered_around(triangles, x, y)) return found_at(scene, s, counts[s]);
     }
     return "";
@@ -230,15 +247,15 @@ void make_tilings_check(const Settings& settings, const RivalSubject& subject, C
   const auto sizes = std::make_shared<Sizes>(subject);
   check.prepare = [cases = subject.slow ? by_level<std::uint64_t>(settings.level, 8, 100, 2000)
                                         : by_level<std::uint64_t>(settings.level, 8, 80, 2000)] { return cases; };
-  check.scene_of = [seed = settings.seed, name = check.name, sizes](std::uint64_t number) {
-    return mesh_of_case(sizes->largest(), number, case_seed(seed, name, number));
+  check.scene_of = [&subject, seed = settings.seed, name = check.name, sizes](std::uint64_t number) {
+    return mesh_of_case(subject, sizes->largest(), number, case_seed(seed, name, number));
   };
   check.run = [&subject, scene_of = check.scene_of](std::uint64_t number) {
     return whole_mesh(subject, scene_of(number));
   };
   adapters::Rival& rival = *subject.rival;
   check.still_fails = [&rival](const Scene& scene) {
-    const bool plain = scene.samples == 1 && scene.draws.size() == 1 && scene.draws[0].vertices.size() >= 3;
+    const bool plain = scene.draws.size() == 1 && scene.draws[0].vertices.size() >= 3;
     const adapters::Rival::Uncounted uncounted(rival);
     return plain && rival.is_reducible() && !crack_in(rival, scene).empty();
   };

@@ -66,10 +66,12 @@ Frame::Frame(const Scene& scene, const Outputs& outputs) : initial_depth_(scene.
     }
     storage.values = interleaved_values(from, stride);
     std::size_t offset = 0;
-    for (const SceneAttribute& attribute : scene.attributes) {
+    for (std::size_t k = 0; k < scene.attributes.size(); ++k) {
+      const SceneAttribute& attribute = scene.attributes[k];
       const std::span<const float> values = storage.values;
-      storage.attributes.push_back(
-          {values.subspan(std::min(offset, values.size())), attribute.components, stride, attribute.interpolation});
+      const auto own = k < from.interpolations.size() ? from.interpolations[k] : std::nullopt;
+      storage.attributes.push_back({values.subspan(std::min(offset, values.size())), attribute.components, stride,
+                                    own.value_or(attribute.interpolation)});
       offset += attribute.components;
     }
 

@@ -66,7 +66,8 @@ bool same_optional(const std::optional<Value>& a, const std::optional<Value>& b)
 
 bool same(const SceneDraw& a, const SceneDraw& b) {
   return same_optional(a.viewport, b.viewport) && same_elements(a.vertices, b.vertices) &&
-         same_elements(a.triangles, b.triangles) && a.first_index == b.first_index && same(a.state(), b.state());
+         same_elements(a.triangles, b.triangles) && a.first_index == b.first_index &&
+         a.interpolations == b.interpolations && same(a.state(), b.state());
 }
 
 }  // namespace

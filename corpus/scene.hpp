@@ -51,6 +51,8 @@ struct SceneDraw : DrawState {
   std::vector<SceneVertex> vertices;
   std::vector<SceneTriangle> triangles;      // all have an identifier, or none
   std::optional<std::uint32_t> first_index;  // unset: the number of triangles in the draws before this one
+  // Of the scene's attributes, in their order, where this draw interpolates them in a way of its own (V3).
+  std::vector<std::optional<Interpolation>> interpolations;
 };
 
 // What a scene asks for beyond what every scene does.

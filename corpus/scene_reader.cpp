@@ -65,7 +65,7 @@ class Reader {
     void (Reader::*read)();
   };
   static const std::array<Keyword, 10> kFrameKeywords;
-  static const std::array<Keyword, 6> kDrawKeywords;
+  static const std::array<Keyword, 7> kDrawKeywords;
 
   [[noreturn]] void fail_at(std::size_t line, const std::string& cause) const {
     throw SceneError(std::string(file_) + ':' + std::to_string(line) + ": " + cause);
@@ -437,6 +437,17 @@ class Reader {
 
   void read_first_index() { draw().first_index = integer<std::uint32_t>(fields_[1], 0, kNoTriangle); }
 
+  void read_interpolation() {
+    const std::vector<SceneAttribute>& all = scene_.attributes;
+    const auto of = std::find_if(all.begin(), all.end(), [&](const SceneAttribute& a) { return a.name == fields_[1]; });
+    if (of == all.end()) fail("no attribute " + quoted(fields_[1]));
+    const auto k = static_cast<std::size_t>(of - all.begin());
+    auto& own = draw().interpolations;
+    own.resize(std::max(own.size(), k + 1));
+    if (own[k]) fail("interpolation " + quoted(fields_[1]) + " is given twice");
+    own[k] = word(fields_[2], kInterpolationNames);
+  }
+
   void read_vertex() {
     if (fields_.size() != 5 + components_) {
       fail("vertex X Y Z W and " + std::to_string(components_) +
@@ -498,9 +509,10 @@ const std::array<Reader::Keyword, 10> Reader::kFrameKeywords{{
     {"attribute", "NAME COMPONENTS INTERPOLATION", 3, 3, true, &Reader::read_attribute},
 }};
 
-const std::array<Reader::Keyword, 6> Reader::kDrawKeywords{{
+const std::array<Reader::Keyword, 7> Reader::kDrawKeywords{{
     {"viewport", "X Y WIDTH HEIGHT NEAR FAR [DEPTH-RANGE [Y-DIRECTION]]", 6, 8, false, &Reader::read_viewport},
     {"first-index", "N", 1, 1, false, &Reader::read_first_index},
+    {"interpolation", "NAME INTERPOLATION", 2, 2, true, &Reader::read_interpolation},
     {"vertex", "X Y Z W [VALUES]", 4, kAnyCount, true, &Reader::read_vertex},
     {"triangle", "I J K [id N]", 3, 5, true, &Reader::read_triangle},
     {"point", "I [id N]", 1, 3, true, &Reader::read_point},

@@ -69,7 +69,7 @@ class Writer {
     for (const SceneAttribute& attribute : scene.attributes) {
       line("attribute", attribute.name, attribute.components, name(attribute.interpolation, kInterpolationNames));
     }
-    for (const SceneDraw& draw : scene.draws) write_draw(draw);
+    for (const SceneDraw& draw : scene.draws) write_draw(draw, scene.attributes);
     return std::move(text_);
   }
 
@@ -99,13 +99,17 @@ class Writer {
     if (!values.empty()) text_ += '\n';
   }
 
-  void write_draw(const SceneDraw& draw) {
+  void write_draw(const SceneDraw& draw, const std::vector<SceneAttribute>& attributes) {
     text_ += "\ndraw\n";
     indent_ = "  ";
     if (draw.viewport) write_viewport(*draw.viewport);
     for_each_draw_field(
         [&](const auto& field) { write_field(field.name, draw.*field.member, DrawState{}.*field.member); });
     if (draw.first_index) line("first-index", *draw.first_index);
+    for (std::size_t k = 0; k < std::min(attributes.size(), draw.interpolations.size()); ++k) {
+      const auto own = draw.interpolations[k];
+      if (own) line("interpolation", attributes[k].name, name(*own, kInterpolationNames));
+    }
     for (const SceneVertex& vertex : draw.vertices) {
       begin("vertex");
       append_all(vertex.x, vertex.y, vertex.z, vertex.w);

@@ -117,7 +117,8 @@ void replay_by_model(const Scene& scene, const RivalSubject& subject, const corp
                      const ReplayOptions& options, Replay& result) {
   const Target& target = actual.target();
   const judge::Frame frame{
-      target.width, target.height, target.samples, target.depth_test, !target.initial_depth.empty(), actual.draws()};
+      target.width,   target.height,       target.samples, target.depth_test, !target.initial_depth.empty(),
+      actual.draws(), target.initial_depth};
   const Image& image = actual.image();
   std::string& text = result.text;
   const std::string open = judge::why_open(subject.terms, frame);

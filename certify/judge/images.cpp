@@ -161,11 +161,8 @@ class Look {
         }
       }
       if (!looks.values) continue;
-      // Where one triangle covers a sample it is the visible one; where none does, the sample is empty.
-      if (known && !frame_.initial_depth && counts.least[s] == 0) {
-        look_at_empty(s);
-      } else if (known && !frame_.initial_depth && counts.only[s] != kNoTriangle) {
-        look_at_values(s, counts.only[s]);
+      if (const auto seen = known ? seen_at(s, counts) : std::nullopt) {
+        look_at_seen(s, *seen);
       } else if (counts.most[s] > 0) {
         look_at_ranges(s, counts);
       }
@@ -189,12 +186,88 @@ class Look {
                       ", got " + actual;
   }
 
-  void look_at_empty(std::size_t s) {
-    if (!image_.index.empty() && image_.index[s] != kNoTriangle) {
-      differs("index", s, "none", named(image_.index[s]), 1);
+  // R12: which triangle is visible, and whose depth is kept, over all draws.
+  struct Seen {
+    std::uint32_t visible = kNoTriangle, kept = kNoTriangle;
+  };
+
+  // Where the triangles that cover the sample are known; none where what is granted to their depths leaves it open.
+  std::optional<Seen> seen_at(std::size_t s, const Counts& counts) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    const Model& model = terms_.model;
+    const bool greater = frame_.depth_test == DepthTest::greater;
+    // A depth that does not come out may have 16 bits.
+    const double more = image_.depth.empty() ? 1.0 / 0xFFFF : 0;
+    const auto nearest_least = [greater, more](const Range& z) {
+      return greater ? Range{-z.high - more, -z.low + more} : Range{z.low - more, z.high + more};
+    };
+    Range kept{kInfinity, kInfinity};
+    if (frame_.initial_depth) {
+      // What a buffer makes of a depth out of its range is its own.
+      if (frame_.before.empty() || !(frame_.before[s] >= 0 && frame_.before[s] <= 1)) return std::nullopt;
+      kept = nearest_least(depth_before(s));
+    } else if (std::isfinite(model.clear)) {
+      kept = greater ? Range{0, 0} : Range{model.clear, model.clear};
+    }
+    std::vector<std::uint32_t> covering;
+    for (std::uint32_t i = counts.last[s]; i != Counts::kNone; i = counts.links[i].before) {
+      covering.push_back(counts.links[i].which);
+    }
+    Seen seen;
+    for (; !covering.empty(); covering.pop_back()) {
+      const std::uint32_t which = covering.back();
+      const Draw& draw = frame_.draws[places_[which].draw];
+      const bool first = kept.low == kInfinity;
+      if (!first || covering.size() > 1) {
+        const Range depth = nearest_least(kept_range(s, which, nullptr));
+        if (!first && depth.low > kept.high) continue;
+        if (!first && !(depth.high < kept.low)) return std::nullopt;
+        if (draw.depth_write) kept = depth;
+      }
+      // M5's order is that of identifiers.
+      const bool same_draw = seen.visible != kNoTriangle && places_[seen.visible].draw == places_[which].draw;
+      if (!draw.depth_write && !draw.identifiers.empty() && same_draw) return std::nullopt;
+      seen.visible = which;
+      if (draw.depth_write) seen.kept = which;
+    }
+    return seen;
+  }
+
+  Range depth_before(std::size_t s) const {
+    const double step = format_step(terms_.model);
+    return {frame_.before[s] - step, frame_.before[s] + step};
+  }
+
+  // What is granted to the depth that a triangle leaves.
+  Range kept_range(std::size_t s, std::uint32_t which, double* value) const {
+    const auto [d, t] = places_[which];
+    const Draw& draw = frame_.draws[d];
+    const Range granted = depth_range(models_[d], frame_, Shape(draw, t), place_of(models_[d], frame_, s), value);
+    if (draw.depth_mode != DepthMode::clamp) return granted;
+    const double step = format_step(models_[d]) + 0x1p-23;
+    if (value) *value = std::clamp(*value, 0.0, 1.0);
+    return {std::clamp(granted.low, 0.0, 1.0) - step, std::clamp(granted.high, 0.0, 1.0) + step};
+  }
+
+  void look_at_seen(std::size_t s, const Seen& seen) {
+    const bool empty = seen.visible == kNoTriangle;
+    const Of of = empty ? Of{} : places_[seen.visible];
+    const std::uint32_t index = empty ? kNoTriangle : identifier_of(frame_.draws[of.draw], of.triangle);
+    if (!image_.index.empty() && image_.index[s] != index) {
+      differs("index", s, named(index), named(image_.index[s]), 1);
       return;
     }
-    look_at_empty_depth(s, "depth of an empty sample");
+    if (!image_.depth.empty() && seen.kept != kNoTriangle) {
+      double z = 0;
+      const Range granted = kept_range(s, seen.kept, &z);
+      note("depth", result_.deviations.depth, s, z, granted, image_.depth[s]);
+    } else if (!image_.depth.empty() && frame_.initial_depth) {
+      in_range("depth, which was there before,", s, depth_before(s), image_.depth[s], true);
+    } else {
+      look_at_empty_depth(s, empty ? "depth of an empty sample" : "depth, which is not written,");  // M5
+    }
+    // With several samples, where in the pixel a value is taken is for M1 to say and the standards to leave open.
+    if (!empty && frame_.samples == 1) look_at_values(s, seen.visible);
   }
 
   void look_at_empty_depth(std::size_t s, const char* what) {
@@ -210,27 +283,6 @@ class Look {
     const Model& model = models_[d];
     const Shape shape(draw, t);
     const Place at = place_of(model, frame_, s);
-    double z = 0;
-    const Range granted = depth_range(model, frame_, shape, at, &z);
-    // What meets the clear value may not be seen.
-    const bool greater = frame_.depth_test == DepthTest::greater;
-    if (std::isfinite(model.clear) && (greater ? granted.low <= 0 : granted.high >= model.clear)) return;
-    if (!image_.index.empty() && image_.index[s] != identifier_of(draw, t)) {
-      differs("index", s, named(identifier_of(draw, t)), named(image_.index[s]), 1);
-      return;
-    }
-    if (!image_.depth.empty() && !draw.depth_write) look_at_empty_depth(s, "depth, which is not written,");  // M5
-    if (!image_.depth.empty() && draw.depth_write) {
-      Range allowed = granted;
-      if (draw.depth_mode == DepthMode::clamp) {
-        const double step = format_step(model) + 0x1p-23;
-        allowed = {std::clamp(granted.low, 0.0, 1.0) - step, std::clamp(granted.high, 0.0, 1.0) + step};
-        z = std::clamp(z, 0.0, 1.0);
-      }
-      note("depth", result_.deviations.depth, s, z, allowed, image_.depth[s]);
-    }
-    // With several samples, where in the pixel a value is taken is for M1 to say and the standards to leave open.
-    if (frame_.samples > 1) return;
     const std::array<double, 3> ones{1, 1, 1};
     const auto look = [&](const std::string& name, Deviation& deviation, const std::array<double, 3>& above,
                           const std::array<double, 3>& below, double largest, float actual) {
@@ -497,7 +549,6 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
   Counts counts;
   counts.least.assign(total, 0);
   counts.most.assign(total, 0);
-  counts.only.assign(total, kNoTriangle);
   counts.last.assign(total, Counts::kNone);
   std::uint32_t which = 0;
   for (const Draw& draw : frame.draws) {
@@ -534,8 +585,7 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
         ++counts.most[s];
         counts.links.push_back({which, counts.last[s]});
         counts.last[s] = static_cast<std::uint32_t>(counts.links.size() - 1);
-        if (cover != Cover::yes) continue;
-        counts.only[s] = ++counts.least[s] == 1 ? which : kNoTriangle;
+        if (cover == Cover::yes) ++counts.least[s];
       }
     }
   }

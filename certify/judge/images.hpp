@@ -45,12 +45,12 @@ struct Frame {
   DepthTest depth_test = DepthTest::less;
   bool initial_depth = false;
   std::span<const Draw> draws;
+  std::span<const float> before = {};  // initial depth, of each sample; empty: not known
 };
 
 // R1: the counts that are right, for each sample.
 struct Counts {
   std::vector<std::uint32_t> least, most;
-  std::vector<std::uint32_t> only;  // where both are 1: which triangle, over all draws; else kNoTriangle
   // The triangles that may cover a sample: from last[sample] on, a list. kNone ends it.
   static constexpr std::uint32_t kNone = 0xFFFFFFFF;
   struct Link {
@@ -93,8 +93,8 @@ struct Looks {
   bool counts = true, values = true;
 };
 
-// Counts; where one triangle is all that covers a sample, its index, depth, barycentrics and attributes; elsewhere, at open
-// samples too, R13's ranges of what is visible. `names` are the attributes'.
+// Counts; where R12 says who is visible, its index, depth, barycentrics and attributes; elsewhere, at open samples too, R13's
+// ranges of what is visible. `names` are the attributes'.
 Judgement judge_image(const Expected& expected, const Terms& terms, const Frame& frame, const corpus::Image& image,
                       const Looks& looks, std::span<const corpus::SceneAttribute> names);
 

@@ -48,10 +48,11 @@ double within_of(const RivalSubject& subject) {
 // What the judge has nothing against is set right, so that what is left is wrong.
 void set_right(const RivalSubject& subject, const corpus::Frame& frame, judge::Wrong& shown) {
   const Target& target = frame.target();
-  const judge::Judgement judgement = judge::judge_image(
-      adapters::oracle_expected(), subject.terms,
-      {target.width, target.height, target.samples, target.depth_test, !target.initial_depth.empty(), frame.draws()},
-      shown.rival, {}, shown.scene.attributes);
+  const judge::Judgement judgement =
+      judge::judge_image(adapters::oracle_expected(), subject.terms,
+                         {target.width, target.height, target.samples, target.depth_test, !target.initial_depth.empty(),
+                          frame.draws(), target.initial_depth},
+                         shown.rival, {}, shown.scene.attributes);
   const std::size_t total = judgement.differs.size();
   const auto copy = [total](const auto& from, auto& to, std::size_t s) {
     if (from.empty() || from.size() != to.size()) return;

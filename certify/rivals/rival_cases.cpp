@@ -24,7 +24,8 @@ using corpus::Image;
 using corpus::Scene;
 
 judge::Frame frame_of(const Target& target, std::span<const Draw> draws) {
-  return {target.width, target.height, target.samples, target.depth_test, !target.initial_depth.empty(), draws};
+  return {target.width, target.height,       target.samples, target.depth_test, !target.initial_depth.empty(),
+          draws,        target.initial_depth};
 }
 
 // Vertices behind the eye, or beyond R7's band. A triangle with one that is no number covers nothing (B1).
@@ -359,6 +360,18 @@ bool still_tiles(const Scene& scene, const RivalSubject& subject) {
   return true;
 }
 
+void draw_flat_frame(const Scene& scene, const RivalSubject& subject, bool near) {
+  Scene flat = scene;
+  flat.draws.assign(1, {});
+  flat.attributes.clear();
+  flat.initial_depth.clear();
+  const double depth = near == (scene.depth_test == DepthTest::less) ? 0 : 1;
+  judge::add_triangle(flat.draws[0], judge::over_all(scene.width, scene.height, depth), subject.terms.model.culled);
+  flat = adapters::scene_under_model(flat, subject.rival->info());
+  corpus::Frame frame(flat, outputs_with(*subject.rival, flat));
+  subject.rival->draw(frame.target(), frame.draws());
+}
+
 CaseResult alone_case(const Scene& original, const RivalSubject& subject) {
   Rival& rival = *subject.rival;
   const Scene scene = adapters::scene_under_model(original, rival.info());
@@ -398,14 +411,7 @@ CaseResult alone_case(const Scene& original, const RivalSubject& subject) {
     };
     const Image whole = draw(scene);
     const Image again = draw(scene);
-    // The whole target, as near as depth goes: what is left of it in a buffer hides what comes.
-    Scene near = scene;
-    near.draws.assign(1, {});
-    near.attributes.clear();
-    const double nearest_depth = scene.depth_test == DepthTest::less ? 0 : 1;
-    judge::add_triangle(near.draws[0], judge::over_all(scene.width, scene.height, nearest_depth),
-                        subject.terms.model.culled);
-    draw(near);
+    draw_flat_frame(scene, subject, true);
     const Image after = draw(scene);
     std::vector<Image> alone;
     std::vector<std::uint32_t> identifiers;

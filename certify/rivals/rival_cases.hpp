@@ -69,6 +69,10 @@ bool is_judged(const properties::Property& property, const RivalSubject& subject
 std::optional<properties::Exhibit> property_exhibit(const properties::Property& property, const corpus::Scene& scene,
                                                     const RivalSubject& subject);
 
+// Draws a frame like this one with a triangle over the whole target, as near as depth goes, or as far: what is left of it in
+// a buffer hides what comes, or does not. Throws as Rival::draw.
+void draw_flat_frame(const corpus::Scene& scene, const RivalSubject& subject, bool near);
+
 // The image of a draw and those of its triangles, each drawn alone.
 CaseResult alone_case(const corpus::Scene& scene, const RivalSubject& subject);
 

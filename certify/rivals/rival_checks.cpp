@@ -13,6 +13,7 @@
 
 #include "certify/judge/lines.hpp"
 #include "certify/judge/words.hpp"
+#include "certify/rivals/layers.hpp"
 #include "certify/rivals/line_checks.hpp"
 #include "certify/rivals/tilings_check.hpp"
 #include "certify/rivals/viewports.hpp"
@@ -226,6 +227,10 @@ class List {
     add_scenes(kInvariants, "alone", "T5, V1",
                "an image is what its triangles drawn alone make of it, to the bit, and the same when drawn again",
                cases() * 2, scene_for, alone_case);
+    add_scenes(kInvariants, "layers", "V1, V3, M5, R12",
+               "of large triangles in several draws, whose depths lie clearly apart, the visible one is what the depth "
+               "test, depth write and initial depth make it, with values as its own draw interpolates them",
+               cases() * 2, layers_scene, layers_case);
     add_values();
   }
 

@@ -123,6 +123,7 @@ TEST(SceneText, EveryFieldComesBack) {
   draw.triangles = {{{0, 1, 2}, 7}, {{2, 1, 0}, 4294967294}};
   draw.width = 0.3F;
   draw.first_index = 5;
+  draw.interpolations = {Interpolation::flat};
   draw.front_face = FrontFace::counter_clockwise;
   draw.cull = Cull::front;
   draw.depth_mode = DepthMode::clamp;
@@ -354,6 +355,10 @@ TEST(SceneText, RefusalsNameLineAndCause) {
       {with_draw_lines("viewport 0 0 4 4 0 1 y-up"), "f:4: 'y-up' is none of: zero-to-one, minus-one-to-one"},
       {with_draw_lines("viewport 0 0 4 4 0 1 zero-to-one down"), "f:4: 'down' is none of: y-up, y-down"},
       {with_draw_lines("vertex 0 0 0"), "f:4: vertex X Y Z W [VALUES]: 4 or more fields expected, 3 given"},
+      {with_draw_lines("interpolation a flat"), "f:4: no attribute 'a'"},
+      {with_draw_lines("interpolation a"), "f:4: interpolation NAME INTERPOLATION: 2 fields expected, 1 given"},
+      {"surefill-scene 1\ntarget 4 4\nattribute a 1 flat\ndraw\ninterpolation a flat\ninterpolation a flat\nend\n",
+       "f:6: interpolation 'a' is given twice"},
       {with_draw_lines("vertex 0 0 0 1 2"), "f:4: vertex X Y Z W and 0 attribute values: 4 fields expected, 5 given"},
       {"surefill-scene 1\ntarget 4 4\nattribute a 3 flat\ndraw\nvertex 0 0 0 1 2 3\nend\n",
        "f:5: vertex X Y Z W and 3 attribute values: 7 fields expected, 6 given"},

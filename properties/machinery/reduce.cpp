@@ -215,6 +215,8 @@ bool simpler_frame_state(const Scene& scene, const Visit& visit) {
           s.attributes.erase(s.attributes.begin() + static_cast<std::ptrdiff_t>(k));
           for (SceneDraw& draw : s.draws) {
             for (SceneVertex& vertex : draw.vertices) erase_range(vertex.attributes, offset, offset + components);
+            auto& own = draw.interpolations;
+            if (k < own.size()) own.erase(own.begin() + static_cast<std::ptrdiff_t>(k));
           }
         })) {
       return true;
@@ -275,6 +277,7 @@ bool simpler_draw_state(const Scene& scene, std::size_t d, const Visit& visit) {
     if (draw.grid->rounding != Grid{}.rounding && changed([](SceneDraw& x) { x.grid->rounding = Grid{}.rounding; }))
       return true;
   }
+  if (!draw.interpolations.empty() && changed([](SceneDraw& x) { x.interpolations.clear(); })) return true;
   if (draw.first_index && changed([](SceneDraw& x) { x.first_index.reset(); })) return true;
   const bool identified = !draw.triangles.empty() && draw.triangles.front().identifier.has_value();
   return identified && changed([](SceneDraw& x) {

@@ -416,8 +416,8 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
     return answers;
   }
   if (say(about_hidden_counts(questions)) || (!questions.slow && say(about_counts(questions)))) return answers;
-  if (say(about_states_kept(questions)) || say(about_small(questions)) || say(about_tiny(questions)) ||
-      say(about_triangles_before(questions))) {
+  if (say(about_states_kept(questions)) || say(about_left_before(questions)) || say(about_small(questions)) ||
+      say(about_tiny(questions)) || say(about_triangles_before(questions))) {
     return answers;
   }
   if (!questions.slow && (say(about_precision(questions)) || say(about_slopes(questions)))) return answers;
@@ -429,6 +429,7 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
   say(about_scissor(questions));
   say(about_culling(questions));
   say(about_depth_modes(questions));
+  say(about_depth_write(questions));
   say(about_samples(questions));
   if (answers.sentences.empty()) say(about_states_of_draws(questions, faults));
   if (say(about_index(questions))) return answers;

@@ -101,6 +101,8 @@ std::string about_samples(const Questions& questions);
 std::string about_nothing_seen(const Questions& questions);
 std::string about_visibility(const Questions& questions);
 std::string about_seen(const Questions& questions);
+std::string about_depth_write(const Questions& questions);
+std::string about_left_before(const Questions& questions);
 
 // A vertex that comes to lie at (x, y), of depth z.
 inline corpus::SceneVertex corner(double x, double y, double z = 0.5, double w = 1) {

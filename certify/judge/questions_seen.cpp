@@ -195,6 +195,39 @@ std::string about_negative(const Questions& questions) {
 
 }  // namespace
 
+// A far triangle whose draw does not write depth, behind a near one that leaves some of every block free.
+std::string about_depth_write(const Questions& questions) {
+  for (const bool less : {true, false}) {
+    Scene scene = empty_scene(kSize, kSize);
+    scene.depth_test = less ? DepthTest::less : DepthTest::greater;
+    const double z = less ? 0.25 : 0.75;
+    add_triangle(scene.draws[0], {corner(1.125, 1.25, z), corner(6.5, 2.125, z), corner(2.25, 6.625, z)},
+                 questions.model.culled);
+    add_triangle(scene.draws.emplace_back(), over_all(kSize, kSize, 1 - z), questions.model.culled);
+    if (index_of(questions, scene) != 0u) continue;
+    scene.draws[1].depth_write = false;
+    if (index_of(questions, scene) == 1u) return "where depth write is off the depth test is off, too";
+  }
+  return "";
+}
+
+// One frame that begins with a depth, after a near frame and after a far one.
+std::string about_left_before(const Questions& questions) {
+  for (const DepthTest test : {DepthTest::less, DepthTest::greater}) {
+    const bool less = test == DepthTest::less;
+    Scene scene = layers(questions, test, {0.5}, false);
+    scene.initial_depth = {less ? 0.75f : 0.25f};
+    std::array<std::optional<std::uint32_t>, 2> seen;
+    for (const bool near : {true, false}) {
+      (void)questions.rival(layers(questions, test, {near == less ? 1.0 / 32 : 31.0 / 32}, false));
+      seen[near ? 1 : 0] = index_of(questions, scene);
+    }
+    if (seen[0] && seen[1] && *seen[0] != *seen[1])
+      return "with a depth that is there before the frame, the image depends on the frame before";
+  }
+  return "";
+}
+
 std::string about_seen(const Questions& questions) {
   if (index_of(questions, layers(questions, DepthTest::less, {0.5}, false)) != 0u) return "";
   for (const auto& about : {about_failing, about_coarse_depth, about_negative, about_before, about_equal}) {

@@ -500,6 +500,44 @@ Precise precise_values(const Questions& questions, bool perspective) {
   return result;
 }
 
+// Two draws side by side, of two kinds: is all interpolated as one of them says?
+std::string about_kinds_of_draws(const Questions& questions) {
+  constexpr std::size_t kLeft = 3 * 8 + 1, kRight = 3 * 8 + 6;
+  constexpr std::array kKinds{Interpolation::perspective, Interpolation::noperspective, Interpolation::flat};
+  int all = 0, as_first = 0, as_last = 0;
+  for (const Interpolation first : kKinds) {
+    for (const Interpolation last : kKinds) {
+      Scene scene = empty_scene(8, 8);
+      scene.attributes = {{"a", 1, Interpolation::perspective}};
+      scene.draws.emplace_back();
+      for (const std::size_t d : {0u, 1u}) {
+        std::array<SceneVertex, 3> c{corner(4, -20, 0.5, 1), corner(4, 28, 0.5, 4), corner(d == 0 ? -20 : 28, 4)};
+        for (std::size_t i = 0; i < 3; ++i) c[i].attributes = {static_cast<float>(8 * i)};
+        add_triangle(scene.draws[d], c, questions.model.culled);
+      }
+      // What the rival or the right one has on the left and on the right, where draws say so.
+      const auto values = [&scene](const auto& of, Interpolation left, Interpolation right) {
+        scene.draws[0].interpolations = {left}, scene.draws[1].interpolations = {right};
+        const std::optional<Image> image = of(scene);
+        const bool has = image && !image->attributes.empty() && image->attributes[0].size() == 64;
+        return has ? std::array{image->attributes[0][kLeft], image->attributes[0][kRight]} : std::array{NAN, NAN};
+      };
+      const auto got = values(questions.rival, first, last), wanted = values(questions.right, first, last),
+                 firsts = values(questions.right, first, first), lasts = values(questions.right, last, last);
+      const auto is = [](const auto& a, const auto& b) {
+        return std::abs(a[0] - b[0]) < 1.0 / 16 && std::abs(a[1] - b[1]) < 1.0 / 16;
+      };
+      if (std::isnan(got[0]) || is(wanted, firsts) || is(wanted, lasts)) continue;
+      ++all;
+      as_first += is(got, firsts);
+      as_last += is(got, lasts);
+    }
+  }
+  if (all < 2 || (as_first < all && as_last < all)) return "";
+  return std::string("of several draws each one's attributes are interpolated as the ") +
+         (as_first == all ? "first" : "last") + " draw says";
+}
+
 }  // namespace
 
 std::string about_bits(const Questions& questions) {
@@ -540,7 +578,7 @@ std::string how_values_come(const Questions& questions) {
     return attributes + (precision.empty() ? "" : "; " + precision);
   }
   if (!attributes.empty()) return attributes;
-  return weights;
+  return weights.empty() ? about_kinds_of_draws(questions) : weights;
 }
 
 }  // namespace surefill::judge

@@ -77,6 +77,32 @@ void hide_by_the_frame_before(Instance& instance, const surefill_adapter_scene& 
   instance.farthest = farthest;
 }
 
+// What the frame is to a rasterizer that mixes up the states of its draws.
+struct Mixed {
+  Mixed(const surefill_adapter_scene& from, const std::string& fault)
+      : scene(from), draws(from.draws, from.draws + from.draw_count) {
+    for (surefill_adapter_draw& draw : draws) {
+      std::vector<float>& pixel = pixels.emplace_back(draw.pixel, draw.pixel + std::size_t{4} * draw.vertex_count);
+      auto& kinds = attributes.emplace_back(draw.attributes, draw.attributes + from.attribute_count);
+      for (std::size_t k = 0; k < kinds.size() && fault == "layers-first-kinds"; ++k) {
+        kinds[k].interpolation = from.draws[0].attributes[k].interpolation;
+      }
+      const float nearer = from.depth_test == SUREFILL_ADAPTER_LESS ? -2 : 2;
+      for (std::size_t v = 0; v < pixel.size() && fault == "layers-untested" && !draw.depth_write; v += 4) {
+        pixel[v + 2] += nearer * pixel[v + 3];
+      }
+      draw.pixel = pixel.data();
+      draw.attributes = kinds.data();
+    }
+    scene.draws = draws.data();
+  }
+
+  surefill_adapter_scene scene;
+  std::vector<surefill_adapter_draw> draws;
+  std::vector<std::vector<float>> pixels;
+  std::vector<std::vector<surefill_adapter_attribute>> attributes;
+};
+
 // The vertices of a draw by way of clip space; a rasterizer that has not read the header gets it wrong.
 std::vector<Vertex> from_clip_space(const surefill_adapter_draw& from, const std::string& fault) {
   Viewport viewport;
@@ -103,7 +129,8 @@ int draw(void* handle, const surefill_adapter_scene* scene, const surefill_adapt
   if (shows) {
     if (const int status = fault_before(instance, *scene, *image, total)) return status;
   }
-  adapters::PluginFrame frame(*scene, *image);
+  const Mixed mixed(*scene, instance.fault);
+  adapters::PluginFrame frame(mixed.scene, *image);
   std::vector<std::vector<Vertex>> mapped;
   for (std::uint32_t d = 0; d < scene->draw_count && instance.fault.rfind("clip", 0) == 0; ++d) {
     mapped.push_back(from_clip_space(scene->draws[d], instance.fault));
@@ -114,7 +141,9 @@ int draw(void* handle, const surefill_adapter_scene* scene, const surefill_adapt
   if (instance.fault == "chatter") std::puts("drawing");
   const Status status = render(frame.target(), frame.draws());
   if (instance.fault == "nan" && shows && image->depth) image->depth[0] = std::numeric_limits<float>::quiet_NaN();
-  if (instance.fault == "left-over") hide_by_the_frame_before(instance, *scene, *image, total);
+  const bool hides = instance.fault == "left-over" || instance.fault == "layers-left-over";
+  if (instance.fault == "layers-left-over" && !scene->initial_depth) instance.farthest = HUGE_VALF;
+  if (hides) hide_by_the_frame_before(instance, *scene, *image, total);
   if (instance.fault == "forgetful" && image->count && ++instance.draws % 7 == 0) image->count[0] += 1;
   if (status == Status::ok) return SUREFILL_ADAPTER_OK;
   instance.error = status_text(status);
@@ -149,7 +178,7 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
     info->model.grid_bits = 8;
   }
   info->model.profile = SUREFILL_ADAPTER_PROFILE_EXACT;
-  if (fault == "reports-vulkan" || fault == "reports-opengl") {
+  if (fault == "reports-vulkan" || fault == "reports-opengl" || fault.rfind("layers", 0) == 0) {
     info->model.kind = SUREFILL_ADAPTER_MODEL_UNKNOWN;
     info->model.grid_bits = 8;
     info->model.profile = fault == "reports-vulkan" ? SUREFILL_ADAPTER_PROFILE_VULKAN : SUREFILL_ADAPTER_PROFILE_OPENGL;

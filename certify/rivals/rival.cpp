@@ -310,6 +310,7 @@ void Rival::add_up_counts(const Target& target, std::span<const Draw> draws) {
       one.indices = draw.indices.subspan(corners * t, corners);
       one.identifiers = {};
       one.first_index = 0;
+      one.depth_write = true;  // or no depth would say what it covers
       draw_once(alone, {&one, 1});
       for (std::size_t s = 0; s < total; ++s) {
         if (by_index ? index[s] != kNoTriangle : depth[s] != empty) ++target.count[s];

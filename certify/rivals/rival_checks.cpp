@@ -230,7 +230,7 @@ class List {
     add_scenes(kInvariants, "layers", "V1, V3, M5, R12",
                "of large triangles in several draws, whose depths lie clearly apart, the visible one is what the depth "
                "test, depth write and initial depth make it, with values as its own draw interpolates them",
-               cases() * 2, layers_scene, layers_case);
+               cases(), layers_scene, layers_case);
     add_values();
   }
 

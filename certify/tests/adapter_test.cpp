@@ -178,6 +178,22 @@ TEST_F(Adapter, WhateverAPluginDoesIsAFinding) {
   }
 }
 
+// What is wrong in frames of several draws alone.
+TEST_F(Adapter, DrawsOneOverTheOtherAreJudged) {
+  const std::string plugin = "--only layers --plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments ";
+  EXPECT_EQ(certify(plugin + "reports-opengl"), 0) << out;
+  EXPECT_TRUE(says("ok    layers: ")) << out;
+  const std::pair<const char*, const char*> faults[] = {
+      {"layers-untested", "where depth write is off the depth test is off, too"},
+      {"layers-left-over", "with a depth that is there before the frame, the image depends on the frame before"},
+      {"layers-first-kinds", "of several draws each one's attributes are interpolated as the first draw says"},
+  };
+  for (const auto& [fault, sentence] : faults) {
+    EXPECT_EQ(certify(plugin + fault), 1) << fault << "\n" << out;
+    EXPECT_TRUE(says("FAIL  layers: ") && says(sentence)) << fault << "\n" << out;
+  }
+}
+
 // What cannot be started or opened, or is no rasterizer at all, is not judged; and it is said why.
 TEST_F(Adapter, WhatCannotBeOpenedIsNotJudged) {
   const std::pair<const char*, const char*> faults[] = {

@@ -258,6 +258,18 @@ Image rims_lost(const Scene& scene) {
   return image;
 }
 
+// The coarse depth, of one cell, is not set anew where a frame begins with a depth.
+Image left_from_before(const Scene& scene) {
+  static float farthest = INFINITY;
+  Image image = right_image(scene);
+  if (scene.depth_test != DepthTest::less) return image;
+  if (scene.initial_depth.empty()) farthest = *std::ranges::max_element(image.depth);
+  for (std::size_t s = 0; s < image.depth.size(); ++s) {
+    if (image.depth[s] > farthest) image.index[s] = kNoTriangle;
+  }
+  return image;
+}
+
 constexpr Case kCases[] = {
     {"by corners that leave out their last column and row", about_ways_of_filling, rejected_a_pixel_early},
     {"it is chosen by the sign of a for both axes", about_ways_of_filling, rejected_by_a},
@@ -299,6 +311,28 @@ constexpr Case kCases[] = {
          for (float& value : image.attributes[0]) value += 1;
        }
        return image;
+     }},
+    {"with a depth that is there before the frame, the image depends on the frame before", about_left_before,
+     left_from_before},
+    {"where depth write is off the depth test is off, too", about_depth_write,
+     [](const Scene& s) {
+       Scene other = s;
+       for (SceneDraw& d : other.draws) {
+         for (SceneVertex& v : d.vertices) v.z -= d.depth_write ? 0 : 2 * v.w;
+       }
+       return right_image(other);
+     }},
+    {"of several draws each one's attributes are interpolated as the first draw says", how_values_come,
+     [](const Scene& s) {
+       Scene other = s;
+       for (SceneDraw& d : other.draws) d.interpolations = s.draws[0].interpolations;
+       return right_image(other);
+     }},
+    {"of several draws each one's attributes are interpolated as the last draw says", how_values_come,
+     [](const Scene& s) {
+       Scene other = s;
+       for (SceneDraw& d : other.draws) d.interpolations = s.draws.back().interpolations;
+       return right_image(other);
      }},
     {"the depth that is there before the frame is read upside down", about_visibility,
      [](const Scene& s) {

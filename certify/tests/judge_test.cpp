@@ -15,6 +15,7 @@
 #include "certify/rivals/frame.hpp"
 #include "certify/rivals/model.hpp"
 #include "mutation/zoo/right.hpp"
+#include "oracle/oracle.hpp"
 #include "properties/generators/generators.hpp"
 
 namespace surefill::judge {
@@ -309,6 +310,65 @@ TEST(Judge, DepthThatIsNotWrittenStays) {
     EXPECT_EQ(judgement.finding.rfind("depth, which is not written, at pixel", 0) == 0, depth == 0.5f)
         << judgement.finding;
     EXPECT_EQ(judgement.values.size(), judgement.differences);
+  }
+}
+
+// R12, M5: of triangles whose depths lie apart the visible one is known, whoever wrote what, and so are its values.
+TEST(Judge, WhoIsVisibleIsKnownWhereDepthsLieApart) {
+  Terms terms;
+  terms.known = true;
+  for (const bool known : {true, false}) {
+    for (const bool initial : {false, true}) {
+      corpus::Scene scene = empty_scene(4, 4);
+      scene.attributes = {{"a", 1, Interpolation::perspective}};
+      scene.draws.resize(3);
+      const std::array<double, 3> depths{0.5, 0.25, 0.75};
+      for (std::size_t d = 0; d < 3; ++d) {
+        auto corners = std::array{corner(-4, -4, depths[d]), corner(20, -4, depths[d]), corner(-4, 20, depths[d], 4)};
+        for (std::size_t i = 0; i < 3; ++i) corners[i].attributes = {static_cast<float>(i)};
+        add_triangle(scene.draws[d], corners);
+      }
+      scene.draws[1].depth_write = false;
+      scene.draws[1].interpolations = {Interpolation::noperspective};
+      if (initial) scene.initial_depth = {0.375f};
+      corpus::Frame frame(scene, {true, true, true, false, true});
+      oracle::render(frame.target(), frame.draws());
+      const Frame seen{4,
+                       4,
+                       1,
+                       DepthTest::less,
+                       initial,
+                       frame.draws(),
+                       known ? frame.target().initial_depth : std::span<const float>{}};
+      const auto finding = [&](const corpus::Image& image) {
+        return judge_image(adapters::oracle_expected(), terms, seen, image, {}, scene.attributes).finding;
+      };
+      EXPECT_EQ(finding(frame.image()), "");
+      EXPECT_EQ(frame.image().index[5], 1u);
+      EXPECT_EQ(frame.image().depth[5], initial ? 0.375f : 0.5f);
+      corpus::Image image = frame.image();
+      image.index[5] = 2;
+      const bool judged = known || !initial;
+      EXPECT_EQ(finding(image), judged ? "index at pixel (1, 1): expected 1, got 2" : "");
+      image = frame.image(), image.depth[5] = 0.25f;
+      EXPECT_EQ(finding(image).rfind("depth", 0) == 0, judged) << finding(image);
+      image = frame.image(), image.attributes[0][5] += 0.25f;
+      EXPECT_EQ(finding(image).rfind("a at pixel (1, 1)", 0) == 0, judged) << finding(image);
+      // Without an index and depth, values say who it is.
+      image.index.clear(), image.depth.clear();
+      EXPECT_EQ(finding(image).rfind("a at pixel (1, 1)", 0) == 0, judged) << finding(image);
+      // Nobody is accused where depths do not lie apart.
+      for (corpus::SceneVertex& v : scene.draws[0].vertices) v.z = 0.25f * v.w;
+      for (corpus::SceneVertex& v : scene.draws[2].vertices) v.z = 0.25f * v.w;
+      corpus::Frame equal(scene, {true, true, false, false, false});
+      oracle::render(equal.target(), equal.draws());
+      image = equal.image();
+      for (std::uint32_t index = 0; index < 3; ++index) {
+        image.index[5] = index;
+        const Frame alike{4, 4, 1, DepthTest::less, initial, equal.draws(), equal.target().initial_depth};
+        EXPECT_EQ(judge_image(adapters::oracle_expected(), terms, alike, image, {}, {}).finding, "");
+      }
+    }
   }
 }
 

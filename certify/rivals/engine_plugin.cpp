@@ -166,6 +166,7 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
   info->outputs = SUREFILL_ADAPTER_COUNT | SUREFILL_ADAPTER_INDEX | SUREFILL_ADAPTER_DEPTH |
                   SUREFILL_ADAPTER_BARYCENTRICS | SUREFILL_ADAPTER_ATTRIBUTES;
   if (fault == "no-count") info->outputs &= ~static_cast<std::uint32_t>(SUREFILL_ADAPTER_COUNT);
+  if (fault == "depth-alone") info->outputs = SUREFILL_ADAPTER_DEPTH;
   if (fault == "bad-outputs") info->outputs = 1u << 20;
   info->features = adapters::kAllFeatures;
   info->model.kind = SUREFILL_ADAPTER_MODEL_EXACT;

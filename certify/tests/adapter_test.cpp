@@ -181,8 +181,10 @@ TEST_F(Adapter, WhateverAPluginDoesIsAFinding) {
 // What is wrong in frames of several draws alone.
 TEST_F(Adapter, DrawsOneOverTheOtherAreJudged) {
   const std::string plugin = "--only layers --plugin " SUREFILL_ENGINE_PLUGIN " --plugin-arguments ";
-  EXPECT_EQ(certify(plugin + "reports-opengl"), 0) << out;
-  EXPECT_TRUE(says("ok    layers: ")) << out;
+  for (const char* right : {"reports-opengl", "depth-alone"}) {
+    EXPECT_EQ(certify(plugin + right), 0) << right << "\n" << out;
+    EXPECT_TRUE(says("ok    layers: ")) << out;
+  }
   const std::pair<const char*, const char*> faults[] = {
       {"layers-untested", "where depth write is off the depth test is off, too"},
       {"layers-left-over", "with a depth that is there before the frame, the image depends on the frame before"},

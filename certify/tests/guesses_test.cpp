@@ -271,6 +271,16 @@ Image left_from_before(const Scene& scene) {
 }
 
 constexpr Case kCases[] = {
+    {"rows of depth come as far apart as the width rounded up to a multiple of 8", about_strides,
+     [](const Scene& s) {
+       Image image = right_image(s);
+       const std::vector<float> right = image.depth;
+       const auto width = static_cast<std::size_t>(s.width), apart = (width + 7) / 8 * 8;
+       for (std::size_t i = 0; i < right.size(); ++i) {
+         image.depth[i] = i % apart < width ? right[i / apart * width + i % apart] : INFINITY;
+       }
+       return image;
+     }},
     {"by corners that leave out their last column and row", about_ways_of_filling, rejected_a_pixel_early},
     {"it is chosen by the sign of a for both axes", about_ways_of_filling, rejected_by_a},
     {"the row that a triangle's middle vertex is in is drawn twice", about_ways_of_filling, twice_in_the_middle},

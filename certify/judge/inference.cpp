@@ -344,7 +344,9 @@ corpus::Scene reaching_scene(Random& random, const Model& model, double given, i
 // the edge passes the sample on either side; of edges some times as long as the part that is left one in a few shows it. So
 // it may do so from well before the distance that is found.
 void infer_band(Rival& rival, const Expected& expected, std::vector<Probe>& all, Inference& result) {
-  constexpr int kFarthest = 1 << 13, kEdges = 24, kTimes = 8;
+  // On a coarse grid one edge in six that is cut far out shows it, and fewer that are cut near: what is first seen at some distance
+  // may have begun at a thirty-second part of it.
+  constexpr int kFarthest = 1 << 13, kEdges = 40, kTimes = 32;
   Random random(0xBA4D);
   // Less than an eighth of a step is what the step was found from wrongly, where that explains everything.
   const int bits = std::max(result.model.x.bits, result.model.y.bits);
@@ -363,7 +365,7 @@ void infer_band(Rival& rival, const Expected& expected, std::vector<Probe>& all,
                                                    n % 3 == 0 ? blur : least);
         probes.push_back({scene, rival.draw(scene, covering(rival))});
         if (wrong_samples(expected, result.model, probes.back()) == 0) continue;
-        if (!band) band = distance < 4 * kTimes ? 0 : distance / (2 * kTimes);
+        if (!band) band = distance <= 2 * kTimes ? 0 : distance / kTimes;
         cuts = cuts || wrong_samples(expected, finer, probes.back()) > 0;
       }
     }

@@ -9,6 +9,7 @@
 #include <map>
 #include <vector>
 
+#include "certify/report/reading.hpp"
 #include "certify/report/report_files.hpp"
 #include "certify/report/report_pictures.hpp"
 #include "certify/report/report_values.hpp"
@@ -50,15 +51,13 @@ std::string cause_of(const CheckResult& result) {
   // A count that is too high is another cause than one that is too low.
   unsigned long expected = 0, got = 0;
   const std::size_t at = text.find(": expected ");
-  if (at != std::string::npos && std::sscanf(text.c_str() + at, ": expected %lu, got %lu", &expected, &got) == 2) {
-    const std::string output = text.substr(0, text.find(" at "));
-    if (output == "count" || output == "count of a tiling") {
-      return got > expected ? "samples are covered too often" : "samples are covered too seldom";
-    }
-    return output + " differs";
-  }
   if (at != std::string::npos) {
     const std::string output = text.substr(0, text.find(" at "));
+    Reading values(std::string_view(text).substr(at));
+    const bool are_counts = values.text(": expected ").number(expected).text(", got ").number(got).fits();
+    if (are_counts && (output == "count" || output == "count of a tiling")) {
+      return got > expected ? "samples are covered too often" : "samples are covered too seldom";
+    }
     return output + " differs";
   }
   std::string pattern;
@@ -83,9 +82,9 @@ std::pair<std::string, std::string> values_in(const std::string& finding) {
 Label label_of(const std::string& finding, const std::string& value) {
   Label label;
   const std::size_t at = finding.find(" at pixel (");
-  if (at == std::string::npos || std::sscanf(finding.c_str() + at, " at pixel (%d, %d)", &label.x, &label.y) != 2) {
-    return {};
-  }
+  if (at == std::string::npos) return {};
+  Reading place(std::string_view(finding).substr(at));
+  if (!place.text(" at pixel (").number(label.x).text(", ").number(label.y).fits()) return {};
   label.text = readable(value);
   return label;
 }

@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <optional>
 
+#include "certify/report/reading.hpp"
 #include "certify/report/report.hpp"
 
 namespace surefill::certify {
@@ -327,12 +327,13 @@ std::string turns_picture(const std::string& turns) {
     Row& row = rows.emplace_back();
     row.side = line.substr(0, verb);
     for (std::size_t i = verb + 9; i < line.size();) {
-      int pixel = 0, length = 0;
+      int pixel = 0;
       double place = 0;
-      if (std::sscanf(line.c_str() + i, " %d: %lf px%n", &pixel, &place, &length) == 2 && length > 0) {
+      Reading turn(std::string_view(line).substr(i));
+      if (turn.text("  ").number(pixel).text(": ").number(place).text(" px").fits()) {
         row.at.emplace_back(pixel, place);
         widest = std::max(widest, std::min(std::abs(place), 4.0));
-        i += static_cast<std::size_t>(length);
+        i = line.size() - turn.rest().size();
       } else {
         const std::size_t next = line.find("  ", i + 2);
         i = next == std::string::npos ? line.size() : next;

@@ -5,7 +5,7 @@
 # Builds the judge of the page into FOLDER/judge.wasm. TOOLS/node_modules has npm's binaryen, whose asyncify makes calls of the GPU
 # return later: the judge's C++ waits for an answer, and JavaScript goes on. Code is added to functions that may be waiting, and to
 # no others: waits.mjs finds them, never_waits.txt says what it can't see. With CHECKED=1 each of the others stops the judge if it
-# was left waiting (asyncify's asserts; larger and slower).
+# was left waiting (asyncify's asserts; larger and slower). Functions of similar names stand together: LZMA finds them more alike.
 set -euo pipefail
 source=$(dirname "$(realpath "${BASH_SOURCE[0]}")")
 folder=$(realpath -m "$1") tools=$(realpath "$2")
@@ -25,4 +25,4 @@ binaryen wasm-dis "$objects/small.wasm" -o "$objects/small.wat" $features
 node "$source/waits.mjs" "$objects/small.wat" "$source/never_waits.txt" >"$waits"
 binaryen wasm-opt "$objects/small.wasm" -o "$built" $features --asyncify --pass-arg=asyncify-imports@env.ask ${CHECKED:+--pass-arg=asyncify-asserts} \
   --pass-arg=asyncify-ignore-indirect --pass-arg=asyncify-propagate-addlist "--pass-arg=asyncify-addlist@@$waits" -Oz \
-  --strip-debug --strip-producers
+  --merge-similar-functions -Oz --reorder-functions-by-name --strip-debug --strip-producers

@@ -107,13 +107,14 @@ Left left_over(const Questions& questions, int width, int height) {
   Scene far = near, little = empty_scene(width, height);
   for (SceneVertex& v : far.draws[0].vertices) v.z = 0.75f;
   add_triangle(little.draws[0], {corner(1.125, 1.25), corner(3.5, 1.5), corner(1.25, 3.625)}, questions.model.culled);
-  const auto first = questions.rival(near), second = questions.rival(far), third = questions.rival(little);
-  if (!first || !second || !third || first->count.empty() || second->count.empty() || third->count.empty()) return left;
+  (void)questions.rival(little);
+  const auto before = questions.rival(little), first = questions.rival(near), second = questions.rival(far),
+             after = questions.rival(little);
+  if (!before || !first || !second || !after || before->count.empty() || second->count.empty()) return left;
   if (!second->index.empty() && std::ranges::count(first->index, kNoTriangle) > 0) return left;
   for (std::size_t s = 0; s < second->count.size(); ++s) {
-    const auto x = s % static_cast<std::size_t>(width), y = s / static_cast<std::size_t>(width);
     const bool stays =
-        (x >= 4 || y >= 4) && (third->count[s] != 0 || (!third->index.empty() && third->index[s] != kNoTriangle));
+        after->count[s] != before->count[s] || (!after->index.empty() && after->index[s] != before->index[s]);
     const bool hidden =
         (!second->index.empty() && second->index[s] == kNoTriangle) || second->count[s] != first->count[s];
     left.where.push_back(stays || hidden);

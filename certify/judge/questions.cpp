@@ -301,7 +301,8 @@ Corners plain_corners(Random& random, int width, int height) {
     for (SceneVertex& v : c) {
       // A depth of a few bits: whoever takes clip space needs an exact form of it.
       const double z = std::nearbyint(1024 * (0.1 + 0.8 * random.unit())) / 1024;
-      v = corner(eighth(random, 0, width), eighth(random, 0, height), z);
+      const double x = eighth(random, 0, width), y = eighth(random, 0, height);  // in this order, whoever compiles it
+      v = corner(x, y, z);
     }
     const double turn =
         (double{c[1].x} - c[0].x) * (double{c[2].y} - c[0].y) - (double{c[1].y} - c[0].y) * (double{c[2].x} - c[0].x);

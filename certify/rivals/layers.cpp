@@ -33,7 +33,8 @@ Scene layers_scene(const RivalSubject& subject, std::uint64_t number, std::uint6
   const surefill_adapter_info& info = subject.rival->info();
   const auto takes = [&info](int feature) { return (info.features & static_cast<std::uint32_t>(feature)) != 0; };
   judge::Random random(seed);
-  Scene scene = judge::empty_scene(random.between(9, 40), random.between(9, 40));
+  const int width = random.between(9, 40), height = random.between(9, 40);  // in this order, whoever compiles it
+  Scene scene = judge::empty_scene(width, height);
   scene.draws.clear();
   if (number % 4 == 3 && takes(SUREFILL_ADAPTER_SAMPLES)) scene.samples = 4;
   if (number % 2 == 1 && takes(SUREFILL_ADAPTER_DEPTH_GREATER)) scene.depth_test = DepthTest::greater;

@@ -55,14 +55,16 @@ bool is_ordinary(const surefill_adapter_draw& draw) {
 
 Scene viewport_scene(const RivalSubject&, std::uint64_t number, std::uint64_t seed) {
   judge::Random random(seed);
-  Scene scene = judge::empty_scene(random.between(2, 40), random.between(2, 40));
+  const int width = random.between(2, 40), height = random.between(2, 40);  // in this order, whoever compiles it
+  Scene scene = judge::empty_scene(width, height);
   const Viewport viewport = adapters::ordinary_viewports(scene.width, scene.height)[number % 3];
   for (int t = random.between(1, 4); t > 0; --t) {
     std::array<corpus::SceneVertex, 3> corners;
     for (corpus::SceneVertex& corner : corners) {
       const auto along = [&random](double begin, double length) { return begin + length * random.between(0, 32) / 32; };
       const double x = along(viewport.x, viewport.width), y = along(viewport.y, viewport.height);
-      corner = judge::corner(x, y, random.between(1, 15) / 16.0, std::ldexp(1, random.between(-2, 2)));
+      const double z = random.between(1, 15) / 16.0, w = std::ldexp(1, random.between(-2, 2));
+      corner = judge::corner(x, y, z, w);
     }
     judge::add_triangle(scene.draws[0], corners);
   }

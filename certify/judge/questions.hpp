@@ -110,7 +110,15 @@ inline corpus::SceneVertex corner(double x, double y, double z = 0.5, double w =
 }
 
 double eighth(Random& random, double low, double high);  // a multiple of 1/8
-corpus::Scene empty_scene(int width, int height);        // with one draw
+// Such a vertex in a rectangle, of multiples of 1/8. Y is drawn first, whoever compiles it: as the two arguments of one
+// call they would be drawn in an order that is the compiler's to choose.
+using Interval = std::array<double, 2>;
+inline corpus::SceneVertex random_corner(Random& random, const Interval& xs, const Interval& ys, double z = 0.5,
+                                         double w = 1) {
+  const double y = eighth(random, ys[0], ys[1]), x = eighth(random, xs[0], xs[1]);
+  return corner(x, y, z, w);
+}
+corpus::Scene empty_scene(int width, int height);  // with one draw
 // A triangle of some size on a target.
 std::array<corpus::SceneVertex, 3> plain_corners(Random& random, int width, int height);
 

@@ -35,7 +35,7 @@ std::array<SceneVertex, 3> corners_in(Random& random, Where where, int number) {
   std::array<SceneVertex, 3> c{};
   for (std::size_t i = 0; i < 3; ++i) {
     const double w = std::ldexp(1.0, random.below(3)), z = std::nearbyint(64 * (0.1 + 0.8 * random.unit())) / 64;
-    c[i] = corner(eighth(random, -4, kSize + 4), eighth(random, -4, kSize + 4), z, w);
+    c[i] = random_corner(random, {-4, kSize + 4}, {-4, kSize + 4}, z, w);
     const bool chosen = i == static_cast<std::size_t>(number % 3) ||
                         (number % 2 == 1 && i == static_cast<std::size_t>((number + 1) % 3));
     if (!chosen) continue;
@@ -43,7 +43,7 @@ std::array<SceneVertex, 3> corners_in(Random& random, Where where, int number) {
       c[i].x = static_cast<float>(eighth(random, -24, 40)), c[i].y = static_cast<float>(eighth(random, -24, 40));
       c[i].w = static_cast<float>(-std::nearbyint((0.5 + random.unit()) * 16) / 16), c[i].z = c[i].w / 2;
     } else if (where == Where::beyond) {
-      c[i] = corner(eighth(random, -60, kSize + 60), eighth(random, -60, kSize + 60), z, w);
+      c[i] = random_corner(random, {-60, kSize + 60}, {-60, kSize + 60}, z, w);
     } else {
       c[i].z = static_cast<float>((number % 4 < 2 ? -0.75 : 1.75) * w);
     }

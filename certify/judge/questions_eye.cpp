@@ -201,7 +201,8 @@ std::string about_perspective(const Questions& questions) {
   std::size_t wrong = 0;
   const std::vector<Shown> all = shown_of(questions, 0x3E25, 24, 16, 16, [](Random& random, int, int) {
     constexpr std::array<double, 6> kW{0.25, 0.5, 0.75, 1, 1.5, 4};
-    return corner(eighth(random, 0, 16), eighth(random, 0, 16), 0.5, kW[static_cast<std::size_t>(random.below(6))]);
+    const double w = kW[static_cast<std::size_t>(random.below(6))];
+    return random_corner(random, {0, 16}, {0, 16}, 0.5, w);
   });
   return guessed(questions, all, kPerspective, wrong);
 }

@@ -578,7 +578,7 @@ std::string about_behind(const Questions& questions, std::span<const Fault> faul
       // Its image mirrored through infinity: far off, so that much of the target is covered.
       SceneVertex& v = c[static_cast<std::size_t>((n / 2 + i) % 3)];
       const double w = -0.5 - random.unit();
-      v = corner(eighth(random, -8, 24), eighth(random, -8, 24), 0.5, 1);
+      v = random_corner(random, {-8, 24}, {-8, 24});
       v.x = static_cast<float>(eighth(random, -24, 40)), v.y = static_cast<float>(eighth(random, -24, 40));
       v.w = static_cast<float>(std::nearbyint(w * 16) / 16), v.z = v.w / 2;
     }

@@ -515,14 +515,17 @@ std::string about_ways_of_filling(const Questions& questions) {
     for (Shown& shown : more) all.push_back(std::move(shown));
   };
   // On a wide target and a high one, on one of many tiles, and slivers.
-  add(shown_of(questions, 0x9A55, 8, 24, 14,
-               [](Random& random, int, int) { return corner(eighth(random, 0, 24), eighth(random, 0, 14)); }));
-  add(shown_of(questions, 0x9A58, 8, 14, 24,
-               [](Random& random, int, int) { return corner(eighth(random, 0, 14), eighth(random, 0, 24)); }));
-  add(shown_of(questions, 0x9A56, 8, 150, 140,
-               [](Random& random, int, int) { return corner(eighth(random, 0, 150), eighth(random, 0, 140)); }));
+  add(shown_of(questions, 0x9A55, 8, 24, 14, [](Random& random, int, int) {
+    return random_corner(random, {0, 24}, {0, 14});
+  }));
+  add(shown_of(questions, 0x9A58, 8, 14, 24, [](Random& random, int, int) {
+    return random_corner(random, {0, 14}, {0, 24});
+  }));
+  add(shown_of(questions, 0x9A56, 8, 150, 140, [](Random& random, int, int) {
+    return random_corner(random, {0, 150}, {0, 140});
+  }));
   add(shown_of(questions, 0x9A57, 12, 70, 60, [](Random& random, int, int i) {
-    return corner(eighth(random, 0, 70), i == 2 ? eighth(random, 50, 60) : eighth(random, 4, 7));
+    return random_corner(random, {0, 70}, i == 2 ? Interval{50, 60} : Interval{4, 7});
   }));
   return guessed(questions, all, kPlain, wrong);
 }
@@ -532,8 +535,8 @@ std::string about_reach(const Questions& questions) {
   const std::vector<Shown> all = shown_of(questions, 0x2EAC4, 48, 24, 16, [](Random& random, int n, int i) {
     // One, two or three vertices beyond the target, every second time far.
     const double far = n % 2 == 0 ? 30 : std::exp2(5 + 9 * random.unit());
-    if (i > n / 2 % 3) return corner(eighth(random, 0, 24), eighth(random, 0, 16));
-    return corner(eighth(random, -far, 24 + far), eighth(random, -far, 16 + far));
+    if (i > n / 2 % 3) return random_corner(random, {0, 24}, {0, 16});
+    return random_corner(random, {-far, 24 + far}, {-far, 16 + far});
   });
   return guessed(questions, all, kReach, wrong);
 }

@@ -46,8 +46,8 @@ std::vector<Wrong> shown_of(const Questions& questions, Interpolation kind, bool
     do {
       for (SceneVertex& v : c) {
         const double w = perspective ? std::ldexp(1.0, random.below(3)) : 1;
-        v = corner(std::nearbyint(8 * unit(random, 0, kSize)) / 8, std::nearbyint(8 * unit(random, 0, kSize)) / 8,
-                   std::nearbyint(1024 * unit(random, 0.1, 0.9)) / 1024, w);
+        const double z = std::nearbyint(1024 * unit(random, 0.1, 0.9)) / 1024;
+        v = random_corner(random, {0, kSize}, {0, kSize}, z, w);
       }
       const auto x = [&c](std::size_t i) { return double{c[i].x} / c[i].w; };
       const auto y = [&c](std::size_t i) { return double{c[i].y} / c[i].w; };

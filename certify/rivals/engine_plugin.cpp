@@ -122,6 +122,27 @@ std::vector<Vertex> from_clip_space(const surefill_adapter_draw& from, const std
   return vertices;
 }
 
+// Samples are the corners of pixels, and each second triangle has a fill rule of its own: meshes crack where a sample lies on
+// an edge.
+void crack_at_corners(adapters::PluginFrame& frame, std::vector<std::vector<std::uint32_t>>& indices) {
+  static constexpr SampleLocation kCorner[] = {{0, 0}};
+  frame.target().sample_locations = kCorner;
+  std::vector<Draw> draws;
+  for (const Draw& draw : frame.draws()) {
+    for (const bool second : {false, true}) {
+      std::vector<std::uint32_t>& of = indices.emplace_back();
+      for (std::size_t i = 0; i < draw.indices.size(); ++i) {
+        if ((i / 3 % 2 == 1) == second) of.push_back(draw.indices[i]);
+      }
+      Draw& part = draws.emplace_back(draw);
+      part.indices = of;
+      part.identifiers = {};
+      part.fill_rule = second ? FillRule::bottom_right : FillRule::top_left;
+    }
+  }
+  frame.draws() = draws;
+}
+
 int draw(void* handle, const surefill_adapter_scene* scene, const surefill_adapter_image* image) {
   auto& instance = *static_cast<Instance*>(handle);
   const std::size_t total = std::size_t{scene->width} * scene->height * scene->samples;
@@ -137,6 +158,8 @@ int draw(void* handle, const surefill_adapter_scene* scene, const surefill_adapt
     frame.draws()[d].vertices = mapped.back();
     frame.draws()[d].culling_box.reset();
   }
+  std::vector<std::vector<std::uint32_t>> indices;
+  if (instance.fault == "corner-cracks") crack_at_corners(frame, indices);
   if (instance.fault == "unwritten") frame.target().depth = {};
   if (instance.fault == "chatter") std::puts("drawing");
   const Status status = render(frame.target(), frame.draws());
@@ -179,6 +202,12 @@ int open_adapter(const char* arguments, surefill_adapter_info* info, void** hand
     info->model.grid_bits = 8;
   }
   info->model.profile = SUREFILL_ADAPTER_PROFILE_EXACT;
+  if (fault == "corner-cracks") {
+    info->outputs = SUREFILL_ADAPTER_COUNT;
+    info->features = 0;
+    info->model.kind = SUREFILL_ADAPTER_MODEL_UNKNOWN;
+    info->model.profile = SUREFILL_ADAPTER_PROFILE_OPENGL;
+  }
   if (fault == "reports-vulkan" || fault == "reports-opengl" || fault.rfind("layers", 0) == 0) {
     info->model.kind = SUREFILL_ADAPTER_MODEL_UNKNOWN;
     info->model.grid_bits = 8;

@@ -317,25 +317,44 @@ std::optional<properties::Exhibit> property_exhibit(const properties::Property& 
   });
 }
 
-bool still_tiles(const Scene& scene, const RivalSubject& subject) {
+Scene with_flat_depth(Scene scene) {
+  for (corpus::SceneDraw& draw : scene.draws) {
+    if (draw.depth_mode == DepthMode::clip) continue;
+    for (corpus::SceneVertex& v : draw.vertices) v.z = std::isfinite(v.z) ? v.w / 2 : v.z;
+  }
+  return scene;
+}
+
+bool may_turn(const Scene& scene, const RivalSubject& subject) {
+  const corpus::Frame frame(scene, {false, false, false, false, false});
+  const judge::Frame seen = frame_of(frame.target(), frame.draws());
+  for (std::size_t d = 0; d < scene.draws.size(); ++d) {
+    const judge::Model model = judge::model_of_draw(subject.terms, seen, frame.draws()[d]);
+    for (const corpus::SceneTriangle& triangle : scene.draws[d].triangles) {
+      const std::array<Vertex, 3> t = properties::triangle_of(scene.draws[d], triangle);
+      if (adapters::oracle_expected().may_turn(model, scene.width, scene.height, t)) return true;
+    }
+  }
+  return false;
+}
+
+bool still_tiles(const Scene& original, const RivalSubject& subject) {
+  const Scene scene = with_flat_depth(original);
   const corpus::Frame frame(scene, {false, false, false, false, false});
   const judge::Frame seen = frame_of(frame.target(), frame.draws());
   std::map<std::pair<Key, Key>, int> edges;
   std::map<Key, std::array<double, 2>> places;  // in pixels of the target: R3
-  double beside = 0;                            // how far snapping and blur move a border
+  // How far from the middles of pixels a border is sampled: several samples, snapping and blur.
+  const double around = scene.samples > 1 ? 0.5 : 0;
+  double beside = around;
   for (std::size_t d = 0; d < scene.draws.size(); ++d) {
     const judge::Model model = judge::model_of_draw(subject.terms, seen, frame.draws()[d]);
     if (!oracle::watertight_rule(model) || model.culled != Cull::none) return false;
     for (const oracle::AxisModel* axis : {&model.x, &model.y}) {
-      beside = std::max(beside, std::max(axis->blur, axis->divided_blur) + std::abs(axis->place - 0.5) +
+      beside = std::max(beside, around + std::max(axis->blur, axis->divided_blur) + std::abs(axis->place - 0.5) +
                                     (axis->bits < 0 ? 0 : std::ldexp(1.0, -axis->bits)));
     }
     for (const corpus::SceneTriangle& triangle : scene.draws[d].triangles) {
-      std::array<Vertex, 3> t = properties::triangle_of(scene.draws[d], triangle);
-      if (scene.draws[d].depth_mode != DepthMode::clip) {
-        for (Vertex& v : t) v.z = v.w / 2;  // as JudgedFrames has it
-      }
-      if (adapters::oracle_expected().may_turn(model, scene.width, scene.height, t)) return false;
       for (std::size_t i = 0; i < 3; ++i) {
         const corpus::SceneVertex &p = scene.draws[d].vertices[triangle.vertices[i]],
                                   &q = scene.draws[d].vertices[triangle.vertices[(i + 1) % 3]];
@@ -349,6 +368,7 @@ bool still_tiles(const Scene& scene, const RivalSubject& subject) {
       }
     }
   }
+  if (may_turn(scene, subject)) return false;
   for (const auto& [ends, faces] : edges) {
     if (faces == 2) continue;
     const auto &p = places[ends.first], &q = places[ends.second];

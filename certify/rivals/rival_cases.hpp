@@ -76,6 +76,12 @@ void draw_flat_frame(const corpus::Scene& scene, const RivalSubject& subject, bo
 // The image of a draw and those of its triangles, each drawn alone.
 CaseResult alone_case(const corpus::Scene& scene, const RivalSubject& subject);
 
+// W / 2 for Z, so that no depth buffer and no clipping has a part: as properties that are judged by counts alone are drawn.
+corpus::Scene with_flat_depth(corpus::Scene scene);
+
+// May snapping, blur or cutting turn a triangle, or move its edges (R8, R9)?
+bool may_turn(const corpus::Scene& scene, const RivalSubject& subject);
+
 // T1 is owed on this mesh: the model is watertight, no triangle is turned by snapping or blur, and every edge is shared by
 // two triangles or lies beside the target.
 bool still_tiles(const corpus::Scene& scene, const RivalSubject& subject);

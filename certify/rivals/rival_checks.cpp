@@ -169,22 +169,23 @@ class List {
     const std::string name = property.name;
     // Where there is nothing to judge one case says so.
     Check& check = add(kInvariants, name, property.rule, property.claim, is_judged(property, subject) ? cases() : 1);
-    check.scene_of = [seed = settings_.seed, &property, name](std::uint64_t number) {
+    // A mesh that loses a triangle tiles no more, so what is left is held against the model.
+    const bool tiles = is_tiling(property) && !subject.strict;
+    check.scene_of = [seed = settings_.seed, &property, name, tiles](std::uint64_t number) {
       std::uint64_t which = case_seed(seed, name, number);
       if (property.exhaustive > 0) which %= property.exhaustive;
-      return property.make(which);
+      // As it is drawn, so that whoever reduces or replays it draws the same.
+      return tiles ? with_flat_depth(property.make(which)) : property.make(which);
     };
     check.run = [&property, &subject, scene_of = check.scene_of](std::uint64_t number) {
       if (!is_judged(property, subject)) return not_applicable();
       return property_case(property, scene_of(number), subject);
     };
     const bool simplifies = property.simplifies;
-    // A mesh that loses a triangle tiles no more, so what is left is held against the model.
-    const bool tiles = is_tiling(property) && !subject.strict;
     const auto decide = [&property, &subject, simplifies, tiles](const Scene& scene) {
       if (tiles) {
         CaseResult result;
-        result.finding = crack_in(*subject.rival, scene);
+        result.finding = crack_in(subject, scene);
         result.differences = result.finding.empty() ? 0 : 1;
         if (result.differences > 0) return result;
       }

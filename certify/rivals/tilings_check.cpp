@@ -24,7 +24,6 @@ using properties::Random;
 struct Size {
   int width, height;
 };
-constexpr double kAround = 1.0 / 16;
 constexpr Size kLarge{1920, 1080}, kMiddle{480, 270}, kSmall{64, 48};
 
 // Lines that the mesh's corners lie near, from before 0 to beyond the length: from 1 to 500 pixels apart, 1 beside 500
@@ -99,12 +98,57 @@ std::string found_at(const Scene& scene, std::size_t sample, std::uint32_t count
                      samples > 1 ? fmt::format(" sample {}", sample % samples) : "", count);
 }
 
+// Where the model takes samples, in the coordinates of the scene (R2, R3); and how far a corner may be moved from there
+// (R4, R5), 1/16 pixel at the least.
+class Places {
+ public:
+  struct Place {
+    double x, y, around_x, around_y;
+  };
+
+  Places(const Scene& scene, const RivalSubject& subject)
+      : width_(static_cast<std::size_t>(scene.width)), samples_(scene.samples) {
+    const corpus::Frame frame(scene, {false, false, false, false, false});
+    const judge::Frame seen{scene.width, scene.height, scene.samples, scene.depth_test, false, frame.draws()};
+    for (const Draw& draw : frame.draws()) {
+      const judge::Model model = judge::model_of_draw(subject.terms, seen, draw);
+      x_.take(model.x, scene.width);
+      y_.take(model.y, scene.height);
+    }
+  }
+
+  Place of(std::size_t sample) const {
+    const auto samples = static_cast<std::size_t>(samples_);
+    const SampleLocation within = sample_location(samples_, static_cast<int>(sample % samples));
+    return {x_.at(sample / samples % width_, within.x), y_.at(sample / samples / width_, within.y), x_.around,
+            y_.around};
+  }
+
+ private:
+  struct Axis {
+    double first = 0, stretch = 1, around = 1.0 / 16;
+
+    void take(const oracle::AxisModel& axis, int length) {
+      first = axis.place - axis.moved - 0.5;
+      stretch = length / (length - axis.lacks);
+      const double step = axis.bits < 0 ? 0 : std::ldexp(1.0, -axis.bits);
+      around = std::max(around, axis.place_within + std::max(axis.blur, axis.divided_blur) + step);
+    }
+    double at(std::size_t pixel, int sixteenths) const {
+      return (static_cast<double>(pixel) + sixteenths / 16.0 + first) * stretch;
+    }
+  };
+
+  std::size_t width_;
+  int samples_;
+  Axis x_, y_;
+};
+
 // The triangles within two pixels of the sample, by their boxes.
-Scene near_sample(const Scene& scene, std::size_t sample) {
+Scene near_sample(const Scene& scene, const RivalSubject& subject, std::size_t sample) {
+  const auto [x, y, around_x, around_y] = Places(scene, subject).of(sample);
   Scene part = scene;
   corpus::SceneDraw& draw = part.draws[0];
-  const auto width = static_cast<std::size_t>(scene.width), pixel = sample / static_cast<std::size_t>(scene.samples);
-  const double x = static_cast<double>(pixel % width) + 0.5, y = static_cast<double>(pixel / width) + 0.5;
   std::erase_if(draw.triangles, [&](const corpus::SceneTriangle& triangle) {
     double x0 = INFINITY, y0 = INFINITY, x1 = -INFINITY, y1 = -INFINITY;
     for (const std::uint32_t v : triangle.vertices) {
@@ -114,7 +158,7 @@ Scene near_sample(const Scene& scene, std::size_t sample) {
       y0 = std::min(y0, static_cast<double>(p.y) / p.w);
       y1 = std::max(y1, static_cast<double>(p.y) / p.w);
     }
-    return x < x0 - 2 || x > x1 + 2 || y < y0 - 2 || y > y1 + 2;
+    return x < x0 - 2 - around_x || x > x1 + 2 + around_x || y < y0 - 2 - around_y || y > y1 + 2 + around_y;
   });
   return part;
 }
@@ -185,24 +229,24 @@ CaseResult whole_mesh(const RivalSubject& subject, const Scene& scene) {
     if (result.differences == 0) return result;
     result.finding = fmt::format("{}; in this mesh {} samples are uncovered, {} are covered twice or more",
                                  found_at(scene, first, counts[first]), uncovered, result.differences - uncovered);
-    result.scene = near_sample(scene, first);
+    result.scene = near_sample(scene, subject, first);
     return result;
   });
 }
 
-// Is each of eight points 1/16 pixel around the sample covered once, beyond doubt? Then so is the sample, by whoever
-// decides neighbours alike.
-bool covered_around(const std::vector<judge::Edges>& triangles, double x, double y) {
-  for (const double dx : {-kAround, 0.0, kAround}) {
-    for (const double dy : {-kAround, 0.0, kAround}) {
+// Is each of eight points around the sample covered once, beyond doubt? Then so is the sample, by whoever decides neighbours
+// alike.
+bool covered_around(const std::vector<judge::Edges>& triangles, const Places::Place& place) {
+  for (const double dx : {-place.around_x, 0.0, place.around_x}) {
+    for (const double dy : {-place.around_y, 0.0, place.around_y}) {
       if (dx == 0 && dy == 0) continue;
       int covers = 0;
       for (const judge::Edges& edges : triangles) {
         if (!(std::abs(edges.d) > judge::kRoundings * edges.d_magnitude)) return false;
         bool inside = true;
         for (std::size_t i = 0; i < 3; ++i) {
-          const long double value = edges.at(i, x + dx, y + dy);
-          if (!(std::abs(value) > edges.error(i, x + dx, y + dy))) return false;
+          const long double value = edges.at(i, place.x + dx, place.y + dy);
+          if (!(std::abs(value) > edges.error(i, place.x + dx, place.y + dy))) return false;
           inside = inside && (value > 0) == (edges.d > 0);
         }
         if (inside) ++covers;
@@ -215,22 +259,20 @@ bool covered_around(const std::vector<judge::Edges>& triangles, double x, double
 
 }  // namespace
 
-std::string crack_in(adapters::Rival& rival, const Scene& scene) {
+std::string crack_in(const RivalSubject& subject, const Scene& original) {
   try {
-    const std::vector<std::uint32_t> counts = counts_of(rival, scene);
+    const Scene scene = with_flat_depth(original);
+    if (!subject.strict && may_turn(scene, subject)) return "";
+    const std::vector<std::uint32_t> counts = counts_of(*subject.rival, scene);
     std::vector<judge::Edges> triangles;
     for (const corpus::SceneDraw& draw : scene.draws) {
       for (const corpus::SceneTriangle& triangle : draw.triangles) {
         triangles.emplace_back(properties::triangle_of(draw, triangle));
       }
     }
-    const auto width = static_cast<std::size_t>(scene.width), samples = static_cast<std::size_t>(scene.samples);
+    const Places places(scene, subject);
     for (std::size_t s = 0; s < counts.size(); ++s) {
-      if (counts[s] == 1) continue;
-      const SampleLocation at = sample_location(scene.samples, static_cast<int>(s % samples));
-      const double x = static_cast<double>(s / samples % width) + at.x / 16.0,
-                   y = static_cast<double>(s / samples / width) + at.y / 16.0;
-      if (covered_around(triangles, x, y)) return found_at(scene, s, counts[s]);
+      if (counts[s] != 1 && covered_around(triangles, places.of(s))) return found_at(scene, s, counts[s]);
     }
     return "";
   } catch (const adapters::RivalSkips&) {
@@ -253,13 +295,12 @@ void make_tilings_check(const Settings& settings, const RivalSubject& subject, C
   check.run = [&subject, scene_of = check.scene_of](std::uint64_t number) {
     return whole_mesh(subject, scene_of(number));
   };
-  adapters::Rival& rival = *subject.rival;
-  check.still_fails = [&rival](const Scene& scene) {
+  check.still_fails = [&subject](const Scene& scene) {
     const bool plain = scene.draws.size() == 1 && scene.draws[0].vertices.size() >= 3;
-    const adapters::Rival::Uncounted uncounted(rival);
-    return plain && rival.is_reducible() && !crack_in(rival, scene).empty();
+    const adapters::Rival::Uncounted uncounted(*subject.rival);
+    return plain && subject.rival->is_reducible() && !crack_in(subject, scene).empty();
   };
-  check.describe = [&rival](const Scene& scene) { return crack_in(rival, scene); };
+  check.describe = [&subject](const Scene& scene) { return crack_in(subject, scene); };
 }
 
 }  // namespace surefill::certify

@@ -10,8 +10,9 @@
 
 namespace surefill::certify {
 
-// A sample that the rival does not cover once, in the midst of the scene's triangles, in words; empty if there is none.
-std::string crack_in(adapters::Rival& rival, const corpus::Scene& scene);
+// A sample that the rival does not cover once, in the midst of the scene's triangles where its model takes it, in words; empty
+// if there is none.
+std::string crack_in(const RivalSubject& subject, const corpus::Scene& scene);
 
 // Fills in the check. Subject must outlive it.
 void make_tilings_check(const Settings& settings, const RivalSubject& subject, Check& check);

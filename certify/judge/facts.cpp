@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "certify/judge/text.hpp"
+
 namespace surefill::judge {
 
 namespace {
@@ -88,9 +90,7 @@ void infer_format(Rival& rival, Inference& result) {
   } else {
     result.model.format = largest <= 2.0 / 0xFFFFFF ? oracle::DepthFormat::unorm24 : oracle::DepthFormat::unorm16;
     if (largest > 2.0 / 0xFFFF) {
-      char text[96];
-      std::snprintf(text, sizeof text, "flat depths come back up to %.3g away from what was given", largest);
-      result.problems.push_back(text);
+      result.problems.push_back(text("flat depths come back up to %.3g away from what was given", largest));
     }
   }
 }

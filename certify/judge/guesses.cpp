@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/judge/guesses.hpp"
 
-#include <cstdio>
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge::guesses {
 
@@ -95,9 +95,7 @@ std::string guessed(const Questions& questions, std::span<const Shown> all, std:
         return explains(questions, *shown, [&](const Triangle& t, Drawing& to) { guess.draw(t, to, n); });
       });
       if (!fits) continue;
-      std::array<char, 256> buffer{};
-      std::snprintf(buffer.data(), buffer.size(), guess.text, n, n);
-      return buffer.data();
+      return text(guess.text, n, n);
     }
   }
   return "";

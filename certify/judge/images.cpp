@@ -2,9 +2,9 @@
 #include "certify/judge/images.hpp"
 
 #include <cmath>
-#include <cstdio>
 
 #include "certify/judge/shape.hpp"
+#include "certify/judge/text.hpp"
 #include "certify/judge/turns.hpp"
 
 namespace surefill::judge {
@@ -120,9 +120,7 @@ std::string pixel_text(const Frame& frame, const Place& at) {
 }
 
 std::string number(double value) {
-  char buffer[64];
-  std::snprintf(buffer, sizeof buffer, "%a (%.9g)", value, value);
-  return buffer;
+  return text("%a (%.9g)", value, value);
 }
 
 std::string named(std::uint32_t index) {

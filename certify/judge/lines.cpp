@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "certify/judge/line_rules.hpp"
 #include "certify/judge/probes.hpp"
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
@@ -387,9 +387,7 @@ void infer_points(Rival& rival, const Expected& expected, Standard standard, con
 }
 
 std::string number(double value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.3g", value);
-  return text.data();
+  return text("%.3g", value);
 }
 
 std::string precision(double length) {

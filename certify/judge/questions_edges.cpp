@@ -4,9 +4,9 @@
 // level only once their ends are rounded to the grid.
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "certify/judge/questions.hpp"
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
@@ -36,12 +36,10 @@ std::string about_shared_edges(const Questions& questions) {
   }
   // By a rule that gives an edge to both, or to neither, all are.
   if (twice + never == 0 || twice == all || never == all) return "";
-  std::array<char, 256> buffer{};
-  std::snprintf(buffer.data(), buffer.size(),
-                "of samples on an edge that two triangles share %.1f %% are drawn twice and "
-                "%.1f %% never: an edge is rounded another way for each of the two",
-                100.0 * twice / all, 100.0 * never / all);
-  return buffer.data();
+  return text(
+      "of samples on an edge that two triangles share %.1f %% are drawn twice and "
+      "%.1f %% never: an edge is rounded another way for each of the two",
+      100.0 * twice / all, 100.0 * never / all);
 }
 
 // How far beyond an upright edge a triangle of some width reaches: by halves.
@@ -67,13 +65,10 @@ std::string about_growth(const Questions& questions) {
   const double small = reach_of(questions, 64), large = reach_of(questions, 512), largest = reach_of(questions, 2048);
   if (!(largest > 1.0 / 64 && largest < 7) || std::abs(largest - 4 * large) > largest / 4 || 8 * small > largest)
     return "";
-  std::array<char, 256> buffer{};
-  std::snprintf(
-      buffer.data(), buffer.size(),
+  return text(
       "triangles reach further than they are, the further the larger they are: by %.2g of their height over an "
       "edge, as where barycentrics may be negative by that much",
       largest / 2048);
-  return buffer.data();
 }
 
 std::string about_snapped_edges(const Questions& questions) {

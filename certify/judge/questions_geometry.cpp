@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "certify/judge/questions.hpp"
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
@@ -18,12 +18,6 @@ using corpus::Scene;
 using corpus::SceneDraw;
 using corpus::SceneVertex;
 using Corners = std::array<SceneVertex, 3>;
-
-std::string text(const char* form, double a, double b = 0) {
-  std::array<char, 192> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, a, b);
-  return buffer.data();
-}
 
 // --- many triangles
 
@@ -243,11 +237,10 @@ std::string about_many(const Questions& questions) {
         late[tile] += gone ? 1 : late[tile] > 0 ? kAll : 0;  // one that is drawn after a lost one
       }
       if (std::ranges::max(late) >= kAll || std::ranges::min(room) != std::ranges::max(room)) continue;
-      return text("a tile of %.0f pixels each way has room for %.0f triangles: further ones are lost there", n,
-                  room[0]);
+      return text("a tile of %d pixels each way has room for %d triangles: further ones are lost there", n, room[0]);
     }
-    return text("of 4,096 small triangles side by side in one draw %.0f are lost, the first of them number %.0f",
-                static_cast<double>(lost.size()), lost.front());
+    return text("of 4,096 small triangles side by side in one draw %zu are lost, the first of them number %d",
+                lost.size(), lost.front());
   }
   if (!lost.empty()) return "";
   const auto four = questions.rival(board(4, questions.model.culled));
@@ -313,7 +306,7 @@ std::string about_identifiers(const Questions& questions) {
   // As a float in the image, from which 2^24 and more come back rounded; the largest may be anything.
   for (std::uint32_t t = 0; t < kGiven.size(); ++t) {
     if (image->index[cell(static_cast<int>(t))] == kGiven[t]) continue;
-    return text("of large identifiers of triangles some come back wrong, from %.0f on", kGiven[t]);
+    return text("of large identifiers of triangles some come back wrong, from %u on", kGiven[t]);
   }
   return "";
 }

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 
 #include "certify/judge/questions.hpp"
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
@@ -18,12 +18,6 @@ using corpus::Image;
 using corpus::Scene;
 using corpus::SceneVertex;
 using Corners = std::array<SceneVertex, 3>;
-
-std::string text(const char* form, double a, double b = 0, double c = 0) {
-  std::array<char, 256> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, a, b, c);
-  return buffer.data();
-}
 
 // A triangle about the sample of one pixel.
 Corners small(double x, double y, const Model& model) {
@@ -72,22 +66,22 @@ std::string about_blocks(const Questions& questions) {
     const char* text;
     bool (*is)(int x, int y, int n);
   };
-  constexpr Kept kKept[] = {{"a triangle is lost in blocks of %.0f x %.0f pixels of which it covers no corner: blocks "
+  constexpr Kept kKept[] = {{"a triangle is lost in blocks of %d x %d pixels of which it covers no corner: blocks "
                              "are rejected by their corners alone",
                              [](int x, int y, int n) { return (x == 0 || x == n - 1) && (y == 0 || y == n - 1); }},
-                            {"a triangle is lost in blocks of %.0f x %.0f pixels whose first pixel it does not cover: "
+                            {"a triangle is lost in blocks of %d x %d pixels whose first pixel it does not cover: "
                              "blocks are rejected by that one alone",
                              [](int x, int y, int) { return x == 0 && y == 0; }},
-                            {"a triangle is lost in blocks of %.0f x %.0f pixels whose last pixel it does not cover: "
+                            {"a triangle is lost in blocks of %d x %d pixels whose last pixel it does not cover: "
                              "blocks are rejected by that one alone",
                              [](int x, int y, int n) { return x == n - 1 && y == n - 1; }},
-                            {"a triangle is lost in blocks of %.0f x %.0f pixels whose middle it does not cover: "
+                            {"a triangle is lost in blocks of %d x %d pixels whose middle it does not cover: "
                              "blocks are rejected by their middle alone",
                              [](int x, int y, int n) { return x == n / 2 && y == n / 2; }},
-                            {"a triangle is lost in blocks of %.0f x %.0f pixels whose middle it does not cover: "
+                            {"a triangle is lost in blocks of %d x %d pixels whose middle it does not cover: "
                              "blocks are rejected by their middle alone",
                              [](int x, int y, int n) { return x == n / 2 - 1 && y == n / 2 - 1; }},
-                            {"a triangle is lost in blocks of %.0f x %.0f pixels of whose border it covers nothing: "
+                            {"a triangle is lost in blocks of %d x %d pixels of whose border it covers nothing: "
                              "blocks are rejected by their border alone",
                              [](int x, int y, int n) { return x == 0 || x == n - 1 || y == 0 || y == n - 1; }}};
   for (const int n : {4, 8, 16, 32, 2}) {
@@ -199,13 +193,13 @@ std::string about_vertex_cache(const Questions& questions) {
     const auto unused = questions.rival(single);
     if (unused && !unused->count.empty() && unused->count[kFirst] == 1) {
       return text(
-          "vertex numbers have %.0f bits: larger ones are taken for others, as where an index goes through a "
+          "vertex numbers have %d bits: larger ones are taken for others, as where an index goes through a "
           "smaller integer",
           bits);
     }
     return text(
-        "a vertex is taken for one that was used before if its number is that one's + %.0f: a vertex cache "
-        "looks at the last %.0f bits alone",
+        "a vertex is taken for one that was used before if its number is that one's + %d: a vertex cache "
+        "looks at the last %d bits alone",
         1 << bits, bits);
   }
   return "";
@@ -236,7 +230,7 @@ std::string about_ends_of_rows(const Questions& questions) {
     if (wrong < kLeast) return "";
     if (fits)
       return text(
-          "pixels are drawn in groups of %.0f, and what of the last group lies beyond the right border comes at the "
+          "pixels are drawn in groups of %d, and what of the last group lies beyond the right border comes at the "
           "start of the next row: it is not masked",
           n);
   }
@@ -266,12 +260,6 @@ constexpr Stride kStrides[] = {
     {"the width + %d", [](int w, int, int n) { return w + n; }, {1, 2}},
     {"the width - %d", [](int w, int, int n) { return w - n; }, {1, 2}}};
 
-std::string stride_text(const Stride& stride, int n) {
-  std::array<char, 160> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), stride.text, n);
-  return buffer.data();
-}
-
 // Of depth alone: a triangle over everything, of another depth at each pixel.
 std::string about_rows_of_depth(const Questions& questions) {
   constexpr std::array<std::array<int, 2>, 4> kSizes{{{21, 9}, {18, 12}, {37, 7}, {20, 15}}};
@@ -298,7 +286,7 @@ std::string about_rows_of_depth(const Questions& questions) {
         }
       }
       if (fits && differs)
-        return "rows of depth come as far apart as " + stride_text(stride, n) + ", not as the width: it is skewed";
+        return "rows of depth come as far apart as " + text(stride.text, n) + ", not as the width: it is skewed";
     }
   }
   return "";
@@ -348,7 +336,7 @@ std::string about_strides(const Questions& questions) {
         return counts == shown.rival.count;
       });
       if (!fits) continue;
-      return "rows of an image are kept as far apart as " + stride_text(stride, n) +
+      return "rows of an image are kept as far apart as " + text(stride.text, n) +
              ", not as the width: the stride is wrong, and the picture is sheared";
     }
   }
@@ -417,16 +405,16 @@ std::string about_precision(const Questions& questions) {
       const std::string axis = turned ? "y" : "x";
       const std::string whose =
           perspective ? "positions of vertices whose W is no power of two are off" : "positions are off";
-      const std::string much = text(" by up to %.2g pixels at ", last) + axis + text(" = %.0f", kPlaces.back());
+      const std::string much = text(" by up to %.2g pixels at ", last) + axis + text(" = %d", kPlaces.back());
       // It grows with the position, as a number of so many bits has it; or is there from some place on.
       const double growth = last / std::max(errors[kPlaces.size() - 3], 1.0 / 16);
       if (growth > 2 || first + 3 >= kPlaces.size()) {
-        return whose + much + text(", and less nearer to 0: ", 0) + (perspective ? "1 / W has" : "they have") +
+        return whose + much + ", and less nearer to 0: " + (perspective ? "1 / W has" : "they have") +
                text(" some %.0f bits", std::ceil(std::log2(kPlaces.back() / last)));
       }
       if (first == 0) return "";
       return whose + much + ", and right up to " + axis +
-             text(" = %.0f: the grid gets coarser from there", kPlaces[first - 1]);
+             text(" = %d: the grid gets coarser from there", kPlaces[first - 1]);
     }
   }
   return "";
@@ -469,7 +457,7 @@ std::string about_slopes(const Questions& questions) {
         if (errors[i] > end * static_cast<double>(i + 1) / 8 * 1.3 + 1.0 / 16) return "";
       }
       return text(
-          "steep edges go astray along their way, by up to %.2g pixels after %.0f rows: the slope that is added row by "
+          "steep edges go astray along their way, by up to %.2g pixels after %d rows: the slope that is added row by "
           "row has an error of some 1/%.0f",
           end, kLength, std::exp2(std::round(std::log2(kLength / end))));
     }

@@ -3,21 +3,15 @@
 // Questions about sizes: of draws, in vertices, and of targets.
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "certify/judge/questions.hpp"
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
 namespace {
 
 using corpus::Scene;
-
-std::string text(const char* form, double a, double b) {
-  std::array<char, 192> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, a, b);
-  return buffer.data();
-}
 
 }  // namespace
 
@@ -47,7 +41,7 @@ std::string about_vertices(const Questions& questions) {
     const auto shown = answer(questions, scene);
     if (!shown || shown->right.count == shown->rival.count) continue;
     if (bits == 0) return "";
-    return text("vertex numbers beyond %.0f are taken for others: they have %.0f bits", (1 << bits) - 1, bits);
+    return text("vertex numbers beyond %d are taken for others: they have %d bits", (1 << bits) - 1, bits);
   }
   return "";
 }

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "certify/judge/questions.hpp"
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
@@ -16,13 +16,6 @@ using corpus::Image;
 using corpus::Scene;
 using corpus::SceneDraw;
 using corpus::SceneVertex;
-
-template <typename... Values>
-std::string text(const char* form, Values... values) {
-  std::array<char, 256> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, values...);
-  return buffer.data();
-}
 
 // A clockwise triangle of other W whose X and Y, not divided, turn the other way.
 std::string about_culling_divided(const Questions& questions) {

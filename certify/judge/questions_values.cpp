@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "certify/judge/questions.hpp"
+#include "certify/judge/text.hpp"
 #include "certify/judge/ways.hpp"
 
 namespace surefill::judge {
@@ -19,13 +19,6 @@ using corpus::SceneDraw;
 using corpus::SceneVertex;
 
 constexpr int kSize = 16;
-
-template <typename... Values>
-std::string text(const char* form, Values... values) {
-  std::array<char, 256> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, values...);
-  return buffer.data();
-}
 
 double unit(Random& random, double low, double high) {
   return low + (high - low) * random.unit();

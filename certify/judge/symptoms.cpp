@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
+
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
@@ -172,12 +173,6 @@ void add_odd_index(std::span<const Wrong> wrong, std::vector<std::string>& sente
     follow += good;
   }
   if (most(follow, scenes)) sentences.emplace_back("indices count from the last triangle, not from the first");
-}
-
-std::string text(const char* form, double a, double b = 0) {
-  std::array<char, 128> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, a, b);
-  return buffer.data();
 }
 
 void add_depth(std::span<const Wrong> wrong, double within, std::vector<std::string>& sentences) {
@@ -355,8 +350,7 @@ void add_places(std::span<const Wrong> wrong, std::vector<std::string>& sentence
       if (!found || of_eight) found = &place;
     }
     if (!found) continue;
-    std::array<char, 96> buffer{};
-    std::snprintf(buffer.data(), buffer.size(), found->text, axis == 0 ? "column" : "row");
+    const std::string where = text(found->text, axis == 0 ? "column" : "row");
     std::size_t missing = 0, all = 0;
     for (const Wrong& shown : wrong) {
       for (std::size_t s = 0; s < shown.right.count.size(); ++s) {
@@ -368,7 +362,7 @@ void add_places(std::span<const Wrong> wrong, std::vector<std::string>& sentence
     sentences.push_back(std::string(all > 0 && missing == all ? "samples are not drawn "
                                     : all > 0 && missing == 0 ? "samples are drawn too often "
                                                               : "samples are wrong ") +
-                        buffer.data() + ", and nowhere else");
+                        where + ", and nowhere else");
   }
 }
 

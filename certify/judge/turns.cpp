@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <utility>
+
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
@@ -69,22 +70,17 @@ std::vector<Turn> measure_more_turns(Rival& rival, Cull culled, int axis) {
 
 std::string turns_text(const std::vector<Turn>& turns) {
   constexpr const char* kSides[] = {"left edge ", "right edge", "upper edge", "lower edge"};
-  std::string text;
+  std::string lines;
   for (int side = 0; side < 4; ++side) {
     std::string line = std::string(kSides[side]) + " turns at";
     for (const Turn& turn : turns) {
       if (turn.axis != side / 2 || turn.far != (side % 2 == 1)) continue;
-      char number[64];
-      std::snprintf(number, sizeof number, "  %d: %+.9g px", turn.pixel, turn.at());
-      line += turn.found ? number : "  " + std::to_string(turn.pixel) + ": not at all";
-      if (turn.spread > 0) {
-        std::snprintf(number, sizeof number, " (mixed over %.3g px)", turn.spread);
-        line += number;
-      }
+      line += turn.found ? text("  %d: %+.9g px", turn.pixel, turn.at()) : text("  %d: not at all", turn.pixel);
+      if (turn.spread > 0) line += text(" (mixed over %.3g px)", turn.spread);
     }
-    text += line + "\n";
+    lines += line + "\n";
   }
-  return text;
+  return lines;
 }
 
 }  // namespace surefill::judge

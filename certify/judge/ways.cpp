@@ -1,19 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "certify/judge/ways.hpp"
 
-#include <cstdio>
 #include <iterator>
+
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
 namespace {
-
-template <typename... Values>
-std::string text(const char* form, Values... values) {
-  std::array<char, 256> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, values...);
-  return buffer.data();
-}
 
 // Weights of what is at the corners, as one way to interpolate has them.
 struct Way {

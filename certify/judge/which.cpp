@@ -5,9 +5,10 @@
 #include <array>
 #include <climits>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 #include <vector>
+
+#include "certify/judge/text.hpp"
 
 namespace surefill::judge {
 
@@ -19,12 +20,6 @@ using corpus::SceneDraw;
 using corpus::SceneVertex;
 
 constexpr std::size_t kLeast = 3;  // of either kind, or nothing is said
-
-std::string text(const char* form, double value) {
-  std::array<char, 160> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, value);
-  return buffer.data();
-}
 
 // A number between the two that people write: whole, or of one or two digits.
 double round_between(double low, double high) {

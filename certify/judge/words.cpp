@@ -4,10 +4,22 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdarg>
 #include <cstdio>
 #include <string_view>
 
+#include "certify/judge/text.hpp"
+
 namespace surefill::judge {
+
+std::string text(const char* form, ...) {
+  std::array<char, 384> buffer{};
+  std::va_list values;
+  va_start(values, form);
+  std::vsnprintf(buffer.data(), buffer.size(), form, values);
+  va_end(values);
+  return buffer.data();
+}
 
 namespace {
 
@@ -23,13 +35,6 @@ constexpr std::array<const char*, 10> kRules{
     "southwards-west", "northwards", "northwards-west", "closed",       "open"};
 constexpr std::array<const char*, 8> kSides{"left",     "right",     "top",         "bottom",
                                             "top-left", "top-right", "bottom-left", "bottom-right"};
-
-template <typename... Values>
-std::string text(const char* form, Values... values) {
-  std::array<char, 256> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), form, values...);
-  return buffer.data();
-}
 
 std::string pixels(double distance) {
   const double size = std::abs(distance);

@@ -107,6 +107,17 @@ Signs signs_of_area(const std::array<Box, 3>& t) {
   return signs;
 }
 
+// The least area, twice, of a triangle with a corner in each box: the area is linear in each coordinate.
+double least_area(const std::array<Box, 3>& t) {
+  double least = INFINITY;
+  for (unsigned n = 0; n < 64; ++n) {
+    const double value = edge_function(near_end(t[0].x, n), near_end(t[0].y, n >> 1), near_end(t[1].x, n >> 2),
+                                       near_end(t[1].y, n >> 3), near_end(t[2].x, n >> 4), near_end(t[2].y, n >> 5));
+    least = std::min(least, std::abs(value));
+  }
+  return least;
+}
+
 // The side that the edge from p to q is on, the inside being where E > 0. Both are points.
 Side side_of(const Box& p, const Box& q) {
   const int inside_x = sgn(Rational(end_of(p.y, 0) - end_of(q.y, 0)));
@@ -173,10 +184,7 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
   } else if (kept && culled) {
     placed.kind = Placed::Kind::nothing;
   } else if (kept) {
-    const double size =
-        std::abs(edge_function(placed.boxes[0].x.near_low, placed.boxes[0].y.near_low, placed.boxes[1].x.near_low,
-                               placed.boxes[1].y.near_low, placed.boxes[2].x.near_low, placed.boxes[2].y.near_low));
-    if (model.least_area > 0 && size < 2 * model.least_area) placed.kind = Placed::Kind::open;
+    placed.kind = Placed::Kind::boxes;
   } else if (model.culled == Cull::none && model.turned == Turned::as_grid && points) {
     placed.kind = !area.all_zero()   ? Placed::Kind::boxes
                   : model.draws_flat ? Placed::Kind::open
@@ -186,6 +194,9 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
              (d > 0 ? !area.positive : !area.negative)) {
     placed.kind = Placed::Kind::nothing;
   } else {
+    placed.kind = Placed::Kind::open;
+  }
+  if (placed.kind == Placed::Kind::boxes && model.least_area > 0 && least_area(placed.boxes) < 2 * model.least_area) {
     placed.kind = Placed::Kind::open;
   }
   if (placed.kind == Placed::Kind::boxes && !placed.front) std::swap(placed.boxes[1], placed.boxes[2]);
@@ -233,7 +244,7 @@ class ClippedTriangle {
       return axis.place_within + 2 * std::max(axis.blur, axis.divided_blur) +
              (axis.bits < 0 ? 0 : std::ldexp(1.0, -axis.bits));
     };
-    distance_ = kUnclear + std::max(step(model.x), step(model.y));
+    distance_ = kUnclear + std::max(step(model.x), step(model.y)) + lost_by_cutting(model, width, height, t);
     for (std::size_t axis = 0; axis < 2; ++axis) {
       const AxisModel& m = axis == 0 ? model.x : model.y;
       const double length = axis == 0 ? width : height;
@@ -242,7 +253,7 @@ class ClippedTriangle {
     }
     sign_ = sign_of_d(t);
     const auto [least, most] = std::minmax({t[0].w, t[1].w, t[2].w});
-    unsure_ = edges_.is_thin() || (placed.near && most > kMostDepth * least);
+    unsure_ = edges_.is_thin() || (least > 0 && most > kMostDepth * least);
   }
 
   Cover at(double sx, double sy) const {

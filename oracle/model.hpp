@@ -5,7 +5,9 @@
 #ifndef SUREFILL_ORACLE_MODEL_HPP
 #define SUREFILL_ORACLE_MODEL_HPP
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -142,6 +144,26 @@ struct Model {
 
   friend bool operator==(const Model&, const Model&) = default;
 };
+
+// R9: the least W of the vertices that remain where the triangle may be cut, new ones being among them; 0: none that is known.
+inline double least_w_of_cut(const Model& model, const std::array<Vertex, 3>& t) {
+  const double least = std::min({t[0].w, t[1].w, t[2].w});
+  if (least < model.least_w) return model.least_w;
+  return least > 0 && (std::isfinite(model.band) || model.clipped) ? least : 0;
+}
+
+// R9: how much further from its edges, in pixels, such a triangle is open: new vertices come of roundings of float32, and are
+// divided by their W.
+inline double lost_by_cutting(const Model& model, int width, int height, const std::array<Vertex, 3>& t) {
+  const double w = least_w_of_cut(model, t);
+  if (w == 0) return 0;
+  double largest = 0;
+  for (const Vertex& v : t) {
+    largest = std::max(
+        {largest, std::abs(double{v.x}), std::abs(double{v.y}), std::abs(double{v.w}) * std::max(width, height)});
+  }
+  return 0x1p-20 * largest / w;
+}
 
 // R6. The fill rule that both facings go by, where it is one of the eight and vertices are not overruled.
 inline std::optional<FillRule> watertight_rule(const Model& model) {

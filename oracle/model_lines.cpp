@@ -349,11 +349,15 @@ class LineAnswers {
     return answer.value_or(Cover::no);
   }
 
-  // Tolerant: does an end lie in this pixel?
+  // Tolerant: does an end lie in this pixel, or in one that its row or column of so many pixels comes from?
   bool has_end(int px, int py) const {
-    const auto in = [](const Interval& q, double from) { return q.near_high >= from && q.near_low <= from + 1; };
+    const double beside = std::floor(std::max(1.0, std::floor(widths_.high + 0.5)) / 2);
+    const auto in = [](const Interval& q, double from, double more) {
+      return q.near_high >= from - more && q.near_low <= from + 1 + more;
+    };
     return std::any_of(ends_.begin(), ends_.end(), [&](const auto& end) {
-      return in(end[0], px + model_.x.place - 0.5) && in(end[1], py + model_.y.place - 0.5);
+      const double x = px + model_.x.place - 0.5, y = py + model_.y.place - 0.5;
+      return (in(end[0], x, 0) && in(end[1], y, beside)) || (in(end[0], x, beside) && in(end[1], y, 0));
     });
   }
 
@@ -375,8 +379,11 @@ class LineAnswers {
       if (most_size(axis) == 0) continue;
       const bool points = is_point();
       const int compared = points ? compare_lengths() : 0;
-      const bool may =
-          points ? (axis == 0 ? compared >= 0 : compared < 0) : most_size(axis) * (1 + 0x1p-40) >= least_size(other);
+      // R18: ends of tolerant ones may lie elsewhere, and the other axis be the major one.
+      const bool either = shape_ == LineShape::tolerant && most_size(axis) + 2 >= least_size(other);
+      const bool may = either   ? true
+                       : points ? (axis == 0 ? compared >= 0 : compared < 0)
+                                : most_size(axis) * (1 + 0x1p-40) >= least_size(other);
       if (!may) continue;
       if (low[axis] <= 0 && high[axis] >= 0) {
         short_ = true;  // it may turn either way

@@ -47,8 +47,13 @@ void infer_w(Rival& rival, Inference& result) {
     for (int exponent = 0; std::abs(exponent) <= 30; exponent += 2 * direction) {
       const float w = std::ldexp(1.0f, exponent);
       if (covers(rival, large(result.model, 0.5f, w))) continue;
-      const double last = std::ldexp(1.0, exponent - 2 * direction);
-      (direction < 0 ? result.model.least_w : result.model.most_w) = last;
+      // Nearer, to a thousandth.
+      float drawn = std::ldexp(1.0f, exponent - 2 * direction), left_out = w;
+      for (int n = 0; n < 11; ++n) {
+        const float middle = std::sqrt(drawn * left_out);
+        (covers(rival, large(result.model, 0.5f, middle)) ? drawn : left_out) = middle;
+      }
+      (direction < 0 ? result.model.least_w : result.model.most_w) = drawn;
       break;
     }
   }
@@ -56,6 +61,16 @@ void infer_w(Rival& rival, Inference& result) {
 
 void infer_clipping(Rival& rival, Inference& result) {
   const bool before = covers(rival, large(result.model, -0.5f)), behind = covers(rival, large(result.model, 1.5f));
+  if (before && !behind && !rival.outputs().count) {
+    // Or a clear value of 1 hides it, which lies behind all with the test GREATER.
+    corpus::Scene scene = large(result.model, 1.5f);
+    scene.depth_test = DepthTest::greater;
+    try {
+      if (covers(rival, scene)) return;
+    } catch (const Declined&) {
+      // Nobody knows, and it is the same to whoever has no other test.
+    }
+  }
   if (before && behind) return;
   result.model.clipped = {before ? -INFINITY : 0.0, behind ? INFINITY : 1.0};
 }

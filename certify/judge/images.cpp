@@ -13,7 +13,9 @@ namespace {
 
 constexpr int kGrantedRoundings = 64;  // R11
 constexpr double kClearSteps = 1.0 / 16;
-constexpr float kWidest = 256;  // R20
+constexpr float kWidest = 256;        // R20
+constexpr std::uint32_t kPieces = 8;  // of a triangle that is cut by seven planes
+constexpr Range kAnything{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 
 bool finite(const Vertex& v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
@@ -71,7 +73,7 @@ Place place_of(const Model& model, const Frame& frame, std::size_t s) {
 }
 
 double format_step(const Model& model) {
-  double step = model.minus_one_to_one ? 0x1p-22 : 0;
+  double step = model.minus_one_to_one ? 0x1p-22 : 0x1p-32;
   if (model.format == oracle::DepthFormat::unorm24) step += 1.0 / 0xFFFFFF;
   if (model.format == oracle::DepthFormat::unorm16) step += 1.0 / 0xFFFF;
   return step;
@@ -80,13 +82,23 @@ double format_step(const Model& model) {
 // How far from the sample a value may be taken, x and y, in pixels before R3: R11's p, and beside it how well its place is
 // known: the blur, and of a grid a step, since coverage does not tell a sample from one a step further, if all positions
 // go a step further, too.
-std::array<double, 2> distance_of(const Model& model, const Frame& frame) {
-  const auto along = [&model](const oracle::AxisModel& axis, int length) {
+std::array<double, 2> distance_of(const Model& model, const Frame& frame, const Shape& shape) {
+  const double lost = shape.primitive() == Primitive::triangles
+                          ? oracle::lost_by_cutting(model, frame.width, frame.height, shape.vertices())
+                          : 0;
+  const auto along = [&model, lost](const oracle::AxisModel& axis, int length) {
     const double known = std::max(axis.blur, axis.divided_blur) + axis.place_within;
     const double step = axis.bits < 0 ? 0 : std::ldexp(1.0, -axis.bits);
-    return (model.distance + known + step) * length / (length - axis.lacks);
+    return (model.distance + known + step + lost) * length / (length - axis.lacks);
   };
   return {along(model.x, frame.width), along(model.y, frame.height)};
+}
+
+// R11: by how much more is rounded where new vertices come from others of larger W.
+double cut_roundings(const Model& model, const Shape& shape) {
+  const std::array<Vertex, 3>& t = shape.vertices();
+  const double w = shape.primitive() == Primitive::triangles ? oracle::least_w_of_cut(model, t) : 0;
+  return w > 0 ? std::max({std::abs(t[0].w), std::abs(t[1].w), std::abs(t[2].w)}) / w : 1;
 }
 
 // What is granted to depth at the sample.
@@ -98,12 +110,23 @@ Range depth_range(const Model& model, const Frame& frame, const Shape& shape, co
     w[i] = shape.vertices()[i].w;
     largest = std::max(largest, std::abs(z[i] / w[i]));
   }
-  const std::array<double, 2> distance = distance_of(model, frame);
+  const std::array<double, 2> distance = distance_of(model, frame, shape);
   const Values values = shape.values(z, w, at.x, at.y, distance);
   if (value) *value = values.value;
   largest = std::max(largest, shape.terms(z, w, at.x, at.y, distance));
-  const double more = kGrantedRoundings * 0x1p-24 * largest + 0x1p-126 + format_step(model);
-  return {values.range.low - more, values.range.high + more};
+  const double more =
+      kGrantedRoundings * 0x1p-24 * largest * cut_roundings(model, shape) + 0x1p-126 + format_step(model);
+  Range granted{values.range.low - more, values.range.high + more};
+  if (!shape.in_front()) return granted;
+  // Or kept between those of the vertices, as G2 has it.
+  const auto [least, most] = std::minmax({z[0] / w[0], z[1] / w[1], z[2] / w[2]});
+  granted.low = std::min(granted.low, most + more), granted.high = std::max(granted.high, least - more);
+  return granted;
+}
+
+// R11: beyond 0 to 1 a depth is the buffer's own.
+bool in_depths(double z) {
+  return z >= 0 && z <= 1;
 }
 
 // Fragments that a clip to [low, high] takes away: yes or open becomes no or open.
@@ -240,7 +263,10 @@ class Look {
   Range kept_range(std::size_t s, std::uint32_t which, double* value) const {
     const auto [d, t] = places_[which];
     const Draw& draw = frame_.draws[d];
-    const Range granted = depth_range(models_[d], frame_, Shape(draw, t), place_of(models_[d], frame_, s), value);
+    double z = 0;
+    const Range granted = depth_range(models_[d], frame_, Shape(draw, t), place_of(models_[d], frame_, s), &z);
+    if (value) *value = z;
+    if (draw.depth_mode != DepthMode::clamp && !in_depths(z)) return kAnything;
     if (draw.depth_mode != DepthMode::clamp) return granted;
     const double step = format_step(models_[d]) + 0x1p-23;
     if (value) *value = std::clamp(*value, 0.0, 1.0);
@@ -285,10 +311,10 @@ class Look {
     const auto look = [&](const std::string& name, Deviation& deviation, const std::array<double, 3>& above,
                           const std::array<double, 3>& below, double largest, float actual) {
       if (!std::isfinite(largest)) return;
-      const std::array<double, 2> distance = distance_of(model, frame_);
+      const std::array<double, 2> distance = distance_of(model, frame_, shape);
       const Values values = shape.values(above, below, at.x, at.y, distance);
       const double terms = std::max(largest, shape.terms(above, below, at.x, at.y, distance));
-      const double more = kGrantedRoundings * 0x1p-24 * terms + 0x1p-126;
+      const double more = kGrantedRoundings * 0x1p-24 * terms * cut_roundings(model, shape) + 0x1p-126;
       note(name, deviation, s, values.value, {values.range.low - more, values.range.high + more}, actual);
     };
     for (std::size_t i = 0; i < 3 && !image_.barycentrics.empty(); ++i) {
@@ -392,15 +418,16 @@ class Look {
     const Model& model = models_[d];
     const Shape shape(frame_.draws[d], t);
     const Place at = place_of(model, frame_, s);
-    const std::array<double, 2> distance = distance_of(model, frame_);
+    const std::array<double, 2> distance = distance_of(model, frame_, shape);
     Range range = shape.values(corners.above, corners.below, at.x, at.y, distance).range;
     double more =
         kGrantedRoundings * 0x1p-24 * shape.terms(corners.above, corners.below, at.x, at.y, distance) + 0x1p-126;
     if (shape.in_front()) {
       range.low = std::min(range.low, corners.vertices.low);
       range.high = std::max(range.high, corners.vertices.high);
-      more = std::max(more, kGrantedRoundings * 0x1p-24 * corners.largest);
     }
+    if (std::isfinite(corners.largest)) more = std::max(more, kGrantedRoundings * 0x1p-24 * corners.largest);
+    more *= cut_roundings(model, shape);
     return {range.low - more, range.high + more};
   }
 
@@ -422,8 +449,9 @@ class Look {
         z[i] = corners.above[i] / corners.below[i];
       }
       const auto [low, high] = std::minmax({z[0], z[1], z[2]});
+      if (draw.depth_mode != DepthMode::clamp && !(in_depths(low) && in_depths(high))) return;
       corners.vertices = {low, high};
-      corners.largest = std::max(std::abs(low), std::abs(high));
+      if (shape.in_front()) corners.largest = std::max(std::abs(low), std::abs(high));
       const double step = format_step(models_[d]);
       Range range = range_of(s, which, corners);
       range = {range.low - step, range.high + step};
@@ -552,6 +580,13 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
   for (const Draw& draw : frame.draws) {
     Model model = model_of_draw(terms, frame, draw);
     const Cull cull = in_default_facing(draw);
+    // Who has no grid decides ties on slanted edges by a rounding.
+    if (terms.rounds_slanted && model.x.bits < 0 && model.y.bits < 0) {
+      for (const oracle::Side side :
+           {oracle::Side::top_left, oracle::Side::top_right, oracle::Side::bottom_left, oracle::Side::bottom_right}) {
+        model.front.open |= oracle::bit(side), model.back.open |= oracle::bit(side);
+      }
+    }
     const bool nothing = model.culled != Cull::none && cull != Cull::none && cull != model.culled;
     if (cull != Cull::none) model.culled = cull;
     const std::size_t corners = corpus::corners_of(draw.primitive);
@@ -567,6 +602,9 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
           : draw.primitive == Primitive::lines
               ? expected.cover_line(model, frame.width, frame.height, {v[0], v[1]}, draw.width)
               : expected.cover_point(model, frame.width, frame.height, v[0], draw.width.value_or(1));
+      // R9: pieces of what roundings have lost may lie one over the other.
+      const std::uint32_t pieces =
+          triangle && oracle::lost_by_cutting(model, frame.width, frame.height, v) > kClearSteps ? kPieces : 1;
       for (std::size_t s = 0; s < total; ++s) {
         Cover cover = covers[s];
         if (cover == Cover::no) continue;
@@ -575,12 +613,19 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
                              at.pixel_y < draw.scissor->y0 || at.pixel_y >= draw.scissor->y1)) {
           continue;
         }
-        if (model.clipped) {
+        const bool hides = terms.counts_seen && std::isfinite(model.clear);
+        if (model.clipped || hides) {
           const Range depth = depth_range(model, frame, shape, at, nullptr);
-          cover = clipped(cover, depth, (*model.clipped)[0], (*model.clipped)[1]);
+          const bool greater = frame.depth_test == DepthTest::greater;
+          // What the clear value hides was taken for clipping, as it is with the test LESS.
+          if (model.clipped && !(hides && greater)) {
+            cover = clipped(cover, depth, (*model.clipped)[0], (*model.clipped)[1]);
+          }
+          if (hides && cover == Cover::yes && (depth.high >= 1 || (greater && depth.low <= 0))) cover = Cover::open;
+          if (hides && greater && depth.high < 0) cover = Cover::no;
         }
         if (cover == Cover::no) continue;
-        ++counts.most[s];
+        counts.most[s] += cover == Cover::open ? pieces : 1;
         counts.links.push_back({which, counts.last[s]});
         counts.last[s] = static_cast<std::uint32_t>(counts.links.size() - 1);
         if (cover == Cover::yes) ++counts.least[s];

@@ -71,6 +71,17 @@ constexpr Mistake kPointMistakes[] = {
      }},
 };
 
+// OpenGL 1.0 to 2.1 and the compatibility profile.
+constexpr Mistake kWholePoints{nullptr, [](LoneLine& l) {
+                                 const float size = std::max(std::floor(*l.line_width + 0.5f), 1.0f);
+                                 const bool odd = std::fmod(size, 2.0f) == 1;
+                                 const auto centre = [odd](float q) {
+                                   return odd ? std::floor(q) + 0.5f : std::floor(q + 0.5f);
+                                 };
+                                 for (Vertex& v : l.ends) v.x = centre(v.x / v.w) * v.w, v.y = centre(v.y / v.w) * v.w;
+                                 return l.line_width = size, true;
+                               }};
+
 corpus::Scene scene_of(const LoneLine& line, Primitive primitive, float z = 0.5f) {
   corpus::Scene scene;
   scene.width = line.width;
@@ -181,6 +192,15 @@ std::vector<double> lengths_of(const Model& model) {
   return lengths;
 }
 
+// R17: who has triangles on a grid may have lines and points on it, or not, which few of them show.
+double grid_step(const Model& model) {
+  double step = 0;
+  for (const oracle::AxisModel* axis : {&model.x, &model.y}) {
+    if (axis->bits >= 0) step = std::max(step, std::min(std::ldexp(1.0, -axis->bits), kMostBlur));
+  }
+  return step;
+}
+
 // The rule by which ties go, of those that explain all; the model's own first.
 template <typename With>
 std::optional<FillRule> ties_of(const Expected& expected, const Model& model, const std::vector<Drawn>& drawn,
@@ -243,6 +263,7 @@ std::optional<LineModel> fit_lines(const Expected& expected, const Model& model,
       });
     }
     if (!wide) best->wide = LineModel{}.wide;
+    best->blur = std::max(best->blur, grid_step(model));
     return best;
   }
   return std::nullopt;
@@ -356,6 +377,18 @@ void infer_points(Rival& rival, const Expected& expected, Standard standard, con
     return;
   }
   for (const double within : {0.0, 1.0 / 16, 1.0 / 8, 0.5}) {
+    oracle::PointModel whole;
+    whole.clipped_whole = true;
+    whole.outline.ties.reset();
+    whole.outline.border = 0x1p-10;
+    if (within > 0 && explains(whole, kWholePoints)) {
+      const char* sentence =
+          "points are of whole sizes, at middles or corners of pixels, as in OpenGL's compatibility profile";
+      points.known = false;
+      (standard == Standard::none || standard == Standard::opengl ? result.open : result.line_problems)
+          .emplace_back(sentence);
+      return;
+    }
     for (const double length : lengths_of(result.model)) {
       oracle::PointModel candidate;
       candidate.clipped_whole = true;
@@ -369,6 +402,7 @@ void infer_points(Rival& rival, const Expected& expected, Standard standard, con
         return with(tied);
       });
       points = candidate;
+      points.blur = grid_step(result.model);
       return;
     }
   }

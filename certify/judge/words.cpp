@@ -186,27 +186,32 @@ std::vector<std::string> departures(const Model& model) {
     sentences.push_back(std::string("it always leaves out ") + (model.culled == Cull::front ? "front" : "back") +
                         " faces (clockwise ones are front)");
   }
-  if (model.clipped) {
+  const bool cleared = std::isfinite(model.clear);
+  if (model.clipped && (!cleared || std::isfinite((*model.clipped)[0]))) {
     const auto [low, high] = *model.clipped;
     sentences.push_back(std::isfinite(low) && std::isfinite(high) ? "it always clips depth to 0 to 1"
                         : std::isfinite(low)                      ? "it leaves out depth below 0"
                                                                   : "it leaves out depth above 1");
   }
   if (model.least_area > 0)
-    sentences.push_back(text("it leaves out triangles smaller than some %.2g square pixels", model.least_area));
+    sentences.push_back(
+        text("it leaves out small triangles, of less than %.2g square pixels at the most", model.least_area));
   if (model.draws_flat)
     sentences.emplace_back("triangles without area are drawn, as the lines that they are or otherwise");
   if (std::isfinite(model.band)) {
-    sentences.push_back(
-        text("it cuts triangles that reach further than %g pixels beyond the target, and rounds the new vertices",
-             model.band));
+    const std::string distance =
+        model.band > 0 ? text("further than some distance beyond the target, %g pixels at the least", model.band)
+                       : "beyond the target";
+    sentences.push_back("it cuts triangles that reach " + distance + ", and rounds the new vertices");
   }
-  if (model.least_w > 0) sentences.push_back(text("it draws nothing of W below %g", model.least_w));
-  if (std::isfinite(model.most_w)) sentences.push_back(text("it draws nothing of W above %g", model.most_w));
-  if (std::isfinite(model.clear))
-    sentences.push_back(text("depth is cleared to %g, so nothing at %g or beyond is seen", model.clear, model.clear));
+  if (model.least_w > 0) sentences.push_back(text("it draws nothing of W below %.3g", model.least_w));
+  if (std::isfinite(model.most_w)) sentences.push_back(text("it draws nothing of W above %.3g", model.most_w));
+  if (cleared)
+    sentences.push_back(text("depth is cleared to %g, so nothing %s is seen", model.clear,
+                             model.later_wins ? "beyond" : "there or beyond"));
   if (model.later_wins) sentences.push_back("of equal depths the later one comes");
-  if (model.minus_one_to_one) sentences.push_back("depth goes through -1 to 1, which costs it some bits near 0");
+  if (model.minus_one_to_one)
+    sentences.push_back("depth has no more bits near 0 than elsewhere, as where it goes through -1 to 1");
   return sentences;
 }
 

@@ -279,6 +279,7 @@ judge::Terms terms_of(const surefill_adapter_info& info, const std::optional<jud
   }
   terms.draws_own_rule = (info.features & SUREFILL_ADAPTER_FILL_RULES) != 0;
   terms.draws_own_grid = (info.features & SUREFILL_ADAPTER_GRIDS) != 0;
+  terms.counts_seen = (info.outputs & SUREFILL_ADAPTER_COUNT) == 0;
   return terms;
 }
 

@@ -493,6 +493,7 @@ RivalSubject meet_rival(Rival& rival) {
   }
   subject.terms = adapters::terms_of(rival.info(), rival.stated(), subject.inference.judged);
   if (!rival.stated()) hold_to_standard(rival.info().model.profile, subject.terms.model.lines);
+  subject.terms.rounds_slanted = !subject.declared && !exact_profile(rival);
   subject.strict = exact_profile(rival) && rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
   return subject;
 }

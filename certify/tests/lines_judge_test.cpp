@@ -386,6 +386,26 @@ TEST(LinesJudge, WithoutAStandardNothingIsAccused) {
   EXPECT_NE(all_of(unknown.open).find("how lines and points are drawn"), std::string::npos);
 }
 
+// Points of whole sizes at middles and corners of pixels are OpenGL's own, in its compatibility profile: nobody is held to others.
+// And points need not go by the grid of triangles.
+TEST(LinesJudge, PointsOfTheirOwnAreNotAccused) {
+  Lines whole;
+  whole.point = [](Canvas& c, At a, At, double size) {
+    const double n = std::max(std::floor(size + 0.5), 1.0);
+    const bool odd = std::fmod(n, 2) == 1;
+    const auto centre = [odd](double q) { return odd ? std::floor(q) + 0.5 : std::floor(q + 0.5); };
+    square(c, {centre(a.x), centre(a.y)}, a, n);
+  };
+  const Inference found = found_of(whole, Standard::opengl);
+  EXPECT_TRUE(found.line_problems.empty()) << all_of(found.line_problems);
+  EXPECT_FALSE(found.model.points.known);
+  EXPECT_GT(judged_samples(whole, found, "whole points", 120), 2000u);
+  EXPECT_NE(all_of(found_of(whole, Standard::vulkan).line_problems).find("whole sizes"), std::string::npos);
+  Lines lines;
+  lines.bits = 8;
+  EXPECT_EQ(found_of(lines, Standard::vulkan).model.points.blur, 0x1p-8);
+}
+
 // A model that is right of one is wrong of another, sample by sample.
 TEST(LinesJudge, AnotherModelIsAccused) {
   Lines rival;

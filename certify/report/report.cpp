@@ -233,6 +233,11 @@ std::string verdict_block(std::span<const CheckResult> results, const Facts& fac
     for (const std::string& sentence : facts.departures) block += fmt::format("  note      {}\n", sentence);
     for (const std::string& what : facts.open) block += fmt::format("  unknown   {}\n", what);
     const bool none_fits = facts.inferred_model.starts_with("no");  // "none fits", "no samples that fit"
+    if (none_fits && facts.model == "unknown") {
+      block +=
+          "  unknown   whether it covers what it should: only what holds under every model was judged, which is "
+          "little\n";
+    }
     if (none_fits || !facts.departures.empty() || !facts.problems.empty()) {
       for (const std::string& line : lines_of(facts.turns)) block += fmt::format("  turns     {}\n", line);
     }

@@ -487,8 +487,12 @@ constexpr Part kParts[] = {
      }},
 };
 
-void add_needs(std::span<const Wrong> wrong, const std::function<bool(const Scene&)>& still_wrong,
-               std::vector<std::string>& sentences) {
+// What is not drawn at all is not right, either.
+bool is_right(const Trials& trials, const Scene& scene) {
+  return !trials.still_wrong(scene) && trials.draw(scene);
+}
+
+void add_needs(std::span<const Wrong> wrong, const Trials& trials, std::vector<std::string>& sentences) {
   for (const Part& part : kParts) {
     const auto with = std::count_if(wrong.begin(), wrong.end(), [&part](const Wrong& w) { return part.has(w.scene); });
     if (!most(static_cast<std::size_t>(with), wrong.size())) continue;
@@ -497,7 +501,7 @@ void add_needs(std::span<const Wrong> wrong, const std::function<bool(const Scen
       Scene scene = shown.scene;
       if (!part.has(scene)) continue;
       part.take(scene);
-      if (!still_wrong(scene)) ++gone;
+      if (is_right(trials, scene)) ++gone;
     }
     if (!most(gone, static_cast<std::size_t>(with))) continue;
     sentences.push_back(std::string("it is only wrong with ") + part.text);
@@ -547,7 +551,7 @@ std::vector<std::string> symptoms(std::span<const Wrong> wrong, std::span<const 
     if (!sentence.empty()) sentences.push_back(sentence);
   };
   if (sentences.empty()) add_places(wrong, sentences);
-  if (sentences.empty()) add_needs(wrong, trials.still_wrong, sentences);
+  if (sentences.empty()) add_needs(wrong, trials, sentences);
   if (sentences.empty()) add(which_triangles(wrong, fine, trials));
   if (sentences.empty()) add(how_near_edges(wrong));
   if (sentences.empty()) add(which_scenes(wrong, fine));
@@ -565,7 +569,7 @@ std::vector<std::vector<Scene>> right_without(std::span<const Wrong> wrong, cons
       Scene scene = shown.scene;
       if (!part.has(scene)) continue;
       part.take(scene);
-      if (!trials.still_wrong(scene)) right.push_back(std::move(scene));
+      if (is_right(trials, scene)) right.push_back(std::move(scene));
     }
     if (most(right.size(), wrong.size())) all.push_back(std::move(right));
   }

@@ -102,8 +102,24 @@ std::optional<judge::Wrong> both(const RivalSubject& subject, const Scene& scene
   }
 }
 
+// Small frames that were asked for, as the rival drew them.
+struct Asked {
+  Scene scene;
+  corpus::Image rival;
+};
+
+// The frame under the rival's model, as `render` draws it.
+template <class Render>
+std::optional<corpus::Image> under_model(const RivalSubject& subject, const Scene& scene, const Render& render) {
+  const Scene under = adapters::scene_under_model(scene, subject.rival->info());
+  corpus::Frame frame(under, outputs_with(*subject.rival, scene));
+  if (validate(frame.target(), frame.draws()) != Status::ok) return std::nullopt;
+  if (render(frame.target(), frame.draws()) != Status::ok) return std::nullopt;
+  return std::move(frame.image());
+}
+
 // Whoever asks must be gone before the subject is.
-judge::Questions questions_of(const RivalSubject& subject) {
+judge::Questions questions_of(const RivalSubject& subject, std::vector<Asked>& asked) {
   judge::Questions questions;
   questions.slow = subject.slow;
   questions.model = subject.terms.model;
@@ -111,7 +127,7 @@ judge::Questions questions_of(const RivalSubject& subject) {
     questions.model = judge::with_facts(judge::Model{}, subject.terms.model);
     questions.model.x.lacks = subject.terms.model.x.lacks, questions.model.y.lacks = subject.terms.model.y.lacks;
   }
-  questions.rival = [&subject](const Scene& scene) -> std::optional<corpus::Image> {
+  questions.rival = [&subject, &asked](const Scene& scene) -> std::optional<corpus::Image> {
     adapters::Rival& rival = *subject.rival;
     const adapters::Rival::Uncounted uncounted(rival);
     if (rival.given_up() || !rival.is_reducible()) return std::nullopt;
@@ -119,19 +135,40 @@ judge::Questions questions_of(const RivalSubject& subject) {
       corpus::Frame frame(scene, outputs_with(rival, scene));
       if (validate(frame.target(), frame.draws()) != Status::ok) return std::nullopt;
       rival.draw(frame.target(), frame.draws());
+      if (scene.width * scene.height * scene.samples <= 1024 && asked.size() < 2000)
+        asked.push_back({scene, frame.image()});
       return std::move(frame.image());
     } catch (const std::exception&) {
       return std::nullopt;
     }
   };
   questions.right = [&subject, model = questions.model](const Scene& scene) -> std::optional<corpus::Image> {
-    const Scene under = adapters::scene_under_model(judge::moved(scene, model), subject.rival->info());
-    corpus::Frame frame(under, outputs_with(*subject.rival, scene));
-    if (validate(frame.target(), frame.draws()) != Status::ok) return std::nullopt;
-    oracle::render(frame.target(), frame.draws());
-    return std::move(frame.image());
+    return under_model(subject, judge::moved(scene, model), [](const Target& target, std::span<const Draw> draws) {
+      oracle::render(target, draws);
+      return Status::ok;
+    });
   };
   return questions;
+}
+
+// Takes away the names of faults that would show in a frame which came right: one of `fine`, or one that was asked for.
+void drop_contradicted(std::vector<judge::Name>& names, const RivalSubject& subject, judge::Questions questions,
+                       std::span<const Asked> asked, std::span<const Scene> fine) {
+  if (questions.model.x.place != 0.5 || questions.model.y.place != 0.5) return;
+  const auto drop = [&](const Scene& scene) {
+    std::erase_if(names, [&](const judge::Name& name) {
+      questions.rival = [&](const Scene& s) { return under_model(subject, s, name.fault->render); };
+      const std::optional<judge::Wrong> theirs = judge::answer(questions, scene);
+      return theirs && judge::differs(*theirs);
+    });
+  };
+  for (const Scene& scene : fine) drop(scene);
+  for (const Asked& one : asked) {
+    if (names.empty()) return;
+    questions.rival = [&one](const Scene&) { return std::optional(one.rival); };
+    const std::optional<judge::Wrong> shown = judge::answer(questions, one.scene);
+    if (shown && !judge::differs(*shown)) drop(one.scene);
+  }
 }
 
 }  // namespace
@@ -196,7 +233,8 @@ std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<co
     return sentences;
   }
   const adapters::Rival::WideViewports wide(*subject.rival);
-  const judge::Questions questions = questions_of(subject);
+  std::vector<Asked> asked;
+  const judge::Questions questions = questions_of(subject, asked);
   const judge::Answers answers = judge::ask(questions, known_faults());
   std::vector<Scene> fine = answers.fine;
   std::vector<judge::Wrong> wrong = answers.wrong;
@@ -230,6 +268,7 @@ std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<co
     // Where the answers say what it is, a fault that draws some of it says less.
     if (!answers.sentences.empty()) {
       std::erase_if(names, [](const judge::Name& name) { return name.agreement < 0.9; });
+      drop_contradicted(names, subject, questions, asked, fine);
       for (const judge::Name& name : names) {
         if (name.agreement == names.front().agreement) sentences.push_back(name_text(name));
       }

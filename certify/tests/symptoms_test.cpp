@@ -128,5 +128,27 @@ TEST(Symptoms, AFirstDrawMayHaveNoTriangles) {
   EXPECT_EQ(tried, wrong.size());
 }
 
+// What the rival does not draw is not right, so nothing is said to be needed by that.
+TEST(Symptoms, WhatIsNotDrawnIsNotRight) {
+  for (const bool draws : {true, false}) {
+    std::vector<Wrong> wrong;
+    for (int n = 0; n < 12; ++n) {
+      Wrong& shown = wrong.emplace_back();
+      shown.scene = flat_scene(16, 16, {{Point{1, 1}, Point{14, static_cast<float>(n)}, Point{3, 15}}}, 0.5F);
+      shown.scene.draws[0].grid = Grid{};
+      shown.right.width = shown.right.height = shown.rival.width = shown.rival.height = 16;
+      shown.right.samples = shown.rival.samples = 1;
+      shown.right.count.assign(256, 1), shown.rival.count = shown.right.count;
+      shown.rival.count[static_cast<std::size_t>(17 * n + 3)] = 0;
+      shown.rival.count[static_cast<std::size_t>(11 * n)] = 3;
+    }
+    const auto needed = symptoms(wrong, {},
+                                 {[](const Scene& scene) { return scene.draws[0].grid.has_value(); },
+                                  [&](const Scene&) { return draws ? std::optional(wrong[0]) : std::nullopt; }});
+    const bool said = !needed.empty() && needed.front() == "it is only wrong with the draw's grid";
+    EXPECT_EQ(said, draws);
+  }
+}
+
 }  // namespace
 }  // namespace surefill::judge

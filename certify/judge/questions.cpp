@@ -234,8 +234,25 @@ std::string about_states_kept(const Questions& questions) {
       const auto before = answer(questions, scene);
       if (!before || differs(*before) || !questions.rival(with)) continue;
       const auto after = answer(questions, scene);
-      if (!after || !differs(*after)) continue;
-      return std::string("after a frame with ") + state.name + " the next one, without it, is wrong: state is kept";
+      if (after && differs(*after)) {
+        return std::string("after a frame with ") + state.name + " the next one, without it, is wrong: state is kept";
+      }
+      // Does a state that a frame ends with keep the depth of that frame from being cleared?
+      if (&state - kStates >= static_cast<std::ptrdiff_t>(kOfDraws)) continue;
+      SceneDraw near;
+      near.cull = state.cull;
+      add_triangle(near, over_all(scene.width, scene.height, 1.0 / 32), questions.model.culled);
+      with.draws.insert(with.draws.begin(), near);
+      const auto ended = answer(questions, with);
+      const auto next = answer(questions, scene);
+      const bool wrong = ended && !differs(*ended) && next && differs(*next);
+      // What that draw itself leaves is another question.
+      with.draws.pop_back();
+      (void)questions.rival(with);
+      const auto without = answer(questions, scene);
+      if (!wrong || !without || differs(*without)) continue;
+      return std::string("after a frame whose last draw has ") + state.name +
+             " the next one is wrong where that frame was nearer: depth is not cleared, or not everywhere";
     }
   }
   return "";

@@ -8,6 +8,7 @@
 
 #include "certify/judge/drawings.hpp"
 #include "certify/judge/questions.hpp"
+#include "certify/judge/text.hpp"
 #include "certify/judge/ways.hpp"
 
 namespace surefill::judge {
@@ -26,8 +27,8 @@ struct Place {
   Where where;
 };
 constexpr Place kPlaces[] = {
+    {"that reach beyond the target", "the target's borders", Where::beyond},  // as those behind the eye do, too
     {"with a vertex behind the eye (W <= 0)", "the eye's plane", Where::behind},
-    {"that reach beyond the target", "the target's borders", Where::beyond},
     {"that reach beyond depths 0 to 1, with depth clipping,", "depth 0 and 1", Where::clipped}};
 
 // A triangle in such a place, of which the middle of the target shows some.
@@ -208,9 +209,91 @@ std::string about_place(const Questions& questions, const Place& place) {
          (attributes[2].is_wrong() && !attributes[0].is_wrong() ? ", as if one of them came first" : "");
 }
 
+// Values of triangles that begin left of and above the target, or a scissor: the place that they are of, by values that are
+// the place. What is cut off there must be stepped over.
+std::string about_begun_beyond(const Questions& questions) {
+  // What is cut off: columns of the row, columns and rows of the triangle's box.
+  constexpr std::array<const char*, 3> kForms{
+      "left of the target or its scissor %s are those of another place: what of a row is cut off there is not stepped "
+      "over",
+      "left of the target or its scissor %s are those of another place: columns that are cut off there are not stepped "
+      "over",
+      "above the target or its scissor %s are those of another place: rows that are cut off there are not stepped "
+      "over"};
+  constexpr std::array<const char*, 3> kValues{"attributes", "depths", "attributes and depths"};
+  Random random(0xBE60);
+  struct Off {
+    std::array<double, 3> cut;  // as kForms
+    std::array<double, 2> by;   // in x and y
+    std::array<bool, 2> known{true, true};
+  };
+  std::array<std::vector<Off>, 2> all;  // of attributes, of depths
+  for (int n = 0; n < 16; ++n) {
+    Scene scene = empty_scene(kSize, kSize);
+    scene.attributes = {{"a", 2, Interpolation::perspective}};
+    const int from = n % 2 == 0 ? 0 : 5;
+    if (from != 0) scene.draws[0].scissor = Scissor{from, from, kSize, kSize};
+    std::array<SceneVertex, 3> c{random_corner(random, {-24, -4}, {2, 14})};
+    c[1] = random_corner(random, {8, 20}, {-20, 2}), c[2] = random_corner(random, {4, 20}, {10, 28});
+    for (SceneVertex& v : c) {
+      v.x += static_cast<float>(from), v.y += static_cast<float>(from);
+      v.attributes = {v.x, v.y};
+      v.z = ((n % 4 < 2 ? v.x : v.y) + 64) / 128;
+    }
+    add_triangle(scene.draws[0], c, questions.model.culled);
+    auto shown = answer(questions, scene);
+    if (!shown && from != 0) continue;
+    if (!shown) {
+      scene.attributes.clear();
+      for (SceneVertex& v : scene.draws[0].vertices) v.attributes.clear();
+      shown = answer(questions, scene);
+    }
+    if (!shown || shown->right.count != shown->rival.count) return "";
+    for (int s = 0; s < kSize * kSize; ++s) {
+      const auto at = static_cast<std::size_t>(s);
+      if (shown->right.count[at] != 1 || shown->open[at] != 0) continue;
+      const double x = s % kSize + questions.model.x.place, y = s / kSize + questions.model.y.place;
+      double left = x;
+      for (std::size_t i = 0; i < 3; ++i) {
+        const SceneVertex &p = c[i], &q = c[(i + 1) % 3];
+        if ((p.y < y) != (q.y < y)) left = std::min(left, p.x + (y - p.y) / (double{q.y} - p.y) * (double{q.x} - p.x));
+      }
+      const auto cut = [from](double begin) { return std::max(0.0, from - std::floor(begin)); };
+      Off off{{cut(left), cut(std::min({c[0].x, c[1].x, c[2].x})), cut(std::min({c[0].y, c[1].y, c[2].y}))}, {}};
+      if (!shown->rival.attributes.empty() && !shown->rival.attributes[0].empty()) {
+        off.by = {shown->rival.attributes[0][2 * at] - x, shown->rival.attributes[0][2 * at + 1] - y};
+        all[0].push_back(off);
+      }
+      if (shown->rival.depth.empty()) continue;
+      const double place = 128 * double{shown->rival.depth[at]} - 64;
+      off.by = {place - x, place - y}, off.known = {n % 4 < 2, n % 4 >= 2};
+      all[1].push_back(off);
+    }
+  }
+  for (std::size_t form = 0; form < kForms.size(); ++form) {
+    std::size_t which = 0;
+    for (const std::size_t k : {0u, 1u}) {
+      std::size_t good = 0, far = 0;
+      for (const Off& off : all[k]) {
+        bool fits = true;
+        for (const std::size_t axis : {0u, 1u}) {
+          const double cut = axis == form / 2 ? off.cut[form] : 0;
+          fits = fits && (!off.known[axis] || std::abs(off.by[axis] + cut) < (cut > 0 ? 1.01 : 0.01));
+          far += off.known[axis] && cut >= 3;
+        }
+        good += fits;
+      }
+      if (far >= 40 && 50 * good >= 49 * all[k].size()) which += k + 1;
+    }
+    if (which != 0) return "of triangles that begin " + text(kForms[form], kValues[which - 1]);
+  }
+  return "";
+}
+
 }  // namespace
 
 std::string about_values_of_cut(const Questions& questions) {
+  if (std::string sentence = about_begun_beyond(questions); !sentence.empty()) return sentence;
   for (const Place& place : kPlaces) {
     if (std::string sentence = about_place(questions, place); !sentence.empty()) return sentence;
   }

@@ -16,6 +16,7 @@ namespace {
 
 using corpus::Image;
 using corpus::Scene;
+using corpus::SceneDraw;
 using corpus::SceneVertex;
 using Corners = std::array<SceneVertex, 3>;
 
@@ -102,6 +103,7 @@ std::string about_triangles_before(const Questions& questions) {
   struct Before {
     const char* text;
     Corners corners;
+    void (*give)(SceneDraw& draw) = nullptr;
   };
   const auto at = [](double x, double y, double w = 1) { return corner(x, y, 0.5, w); };
   const auto behind = [](double x, double y) {
@@ -109,7 +111,8 @@ std::string about_triangles_before(const Questions& questions) {
     v.w = -1, v.z = -0.5f;
     return v;
   };
-  const std::array<Before, 14> kinds{{
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const std::array<Before, 18> kinds{{
       {"another one", {at(2.25, 14.125), at(9.5, 15.25), at(3.125, 21.75)}},
       {"one without area (three vertices in a line)", {at(2.25, 14.25), at(4.25, 16.25), at(6.25, 18.25)}},
       {"one without area (one vertex three times)", {at(4.25, 16.25), at(4.25, 16.25), at(4.25, 16.25)}},
@@ -125,38 +128,68 @@ std::string about_triangles_before(const Questions& questions) {
       {"one of other W", {at(2.25, 14.125, 2), at(9.5, 15.25, 4), at(3.125, 21.75, 0.5)}},
       {"one whose vertices are some 1,000 pixels away",
        {at(1000.25, 900.125), at(1000.5, 1500.25), at(1200.125, 1210.75)}},
+      {"one that is culled",
+       {at(2.25, 14.125), at(3.125, 21.75), at(9.5, 15.25)},
+       [](SceneDraw& d) { d.cull = Cull::back; }},
+      {"one wholly outside the scissor",
+       {at(2.25, 23.125), at(9.5, 23.25), at(3.125, 23.875)},
+       [](SceneDraw& d) {
+         d.scissor = Scissor{0, 0, 24, 23};
+       }},
+      {"one wholly beyond depths 0 to 1, with depth clipping,",
+       {corner(2.25, 14.125, 1.5), corner(9.5, 15.25, 1.5), corner(3.125, 21.75, 1.5)},
+       [](SceneDraw& d) { d.depth_mode = DepthMode::clip; }},
+      {"one with a NaN", {corner(nan, 14.125), at(9.5, 15.25), at(3.125, 21.75)}},
   }};
-  const std::array<Corners, 3> plain{{{at(1.125, 1.25), at(9.5, 2.125), at(2.25, 9.625)},
-                                      {at(13.125, 1.25), at(22.5, 2.125), at(14.25, 9.625)},
-                                      {at(13.125, 13.25), at(22.5, 14.125), at(14.25, 21.625)}}};
+  const auto near = [](double x, double y) { return corner(x, y, 0.25); };  // they are seen, whatever else lies there
+  const std::array<Corners, 3> plain{{{near(1.125, 1.25), near(9.5, 2.125), near(2.25, 9.625)},
+                                      {near(13.125, 1.25), near(22.5, 2.125), near(14.25, 9.625)},
+                                      {near(13.125, 13.25), near(22.5, 14.125), near(14.25, 21.625)}}};
   constexpr std::array<std::size_t, 3> kInside{4 * 24 + 4, 4 * 24 + 16, 16 * 24 + 16};
   Scene without = empty_scene(24, 24);
   for (const Corners& corners : plain) add_triangle(without.draws[0], corners, questions.model.culled);
   const auto control = answer(questions, without);
   if (!control || differs(*control)) return "";
-  std::string which;
-  int bad = 0, asked = 0;
+  std::string which, shifted;
+  int bad = 0, asked = 0, shift = 0;
   std::array<bool, 2> lost{true, true}, fine{true, true};
   for (const Before& kind : kinds) {
-    Scene scene = empty_scene(24, 24), alone = scene;
+    if (kind.give && questions.model.culled != Cull::none) continue;
+    Scene scene = empty_scene(24, 24);
+    if (kind.give) kind.give(scene.draws[0]);
+    Scene alone = scene, at_end = scene;
+    for (const Corners& corners : plain) add_triangle(at_end.draws[0], corners, questions.model.culled);
     add_triangle(scene.draws[0], plain[0], questions.model.culled);
-    add_triangle(scene.draws[0], kind.corners);
-    add_triangle(alone.draws[0], kind.corners);
+    for (Scene* one : {&scene, &alone, &at_end}) add_triangle(one->draws[0], kind.corners);
     for (const std::size_t i : {1u, 2u}) add_triangle(scene.draws[0], plain[i], questions.model.culled);
     const auto single = answer(questions, alone), shown = answer(questions, scene);
     if (!single || !shown) continue;
     ++asked;
-    if (single->right.count != single->rival.count || shown->right.count == shown->rival.count) continue;
+    if (single->right.count != single->rival.count) continue;
+    const bool counts = shown->right.count == shown->rival.count;
+    if (counts && shown->right.index == shown->rival.index) continue;
     // What is as wrong with that one at the end is no matter of what comes after.
-    Scene at_end = without;
-    add_triangle(at_end.draws[0], kind.corners);
-    if (const auto last = answer(questions, at_end); !last || last->right.count != last->rival.count) continue;
+    const auto last = answer(questions, at_end);
+    if (!last || last->right.count != last->rival.count) continue;
+    if (counts) {
+      const auto moved = [&](std::size_t i) {
+        return static_cast<int>(shown->rival.index[kInside[i]] - shown->right.index[kInside[i]]);
+      };
+      if (shown->rival.index.empty() || last->right.index[kInside[2]] != last->rival.index[kInside[2]]) continue;
+      if (moved(0) != 0 || moved(1) <= 0 || moved(1) > 8 || moved(2) != moved(1)) continue;
+      if (shifted.empty()) shifted = kind.text, shift = moved(1);
+      continue;
+    }
     ++bad;
     if (bad <= 3) which += (which.empty() ? "" : ", or ") + std::string(kind.text);
     for (const std::size_t i : {0u, 1u}) {
       const bool is_lost = shown->rival.count[kInside[i + 1]] == 0;
       lost[i] = lost[i] && is_lost, fine[i] = fine[i] && !is_lost;
     }
+  }
+  if (bad == 0 && !shifted.empty()) {
+    return "triangles of a draw that come after " + shifted +
+           text(" have an index that is %d too large: what the clipper makes of that one is numbered, too", shift);
   }
   if (bad == 0 || asked < 6) return "";
   if (2 * bad > asked || bad > 3) which = "others";

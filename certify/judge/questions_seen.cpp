@@ -127,6 +127,26 @@ std::string about_before(const Questions& questions) {
     scene.initial_depth = {less ? 0.25f : 0.75f};
     if (index_of(questions, scene) == 0u)
       return std::string(with) + "the depth that is there before the frame is ignored";
+    // What is behind it, in a draw with a scissor, and then without.
+    Scene scissored = layers(questions, test, {0.5, 0.5}, true);
+    scissored.initial_depth = scene.initial_depth;
+    scissored.draws[0].scissor = Scissor{2, 2, 6, 6};
+    for (const bool two : {true, false}) {
+      if (!two) scissored.draws.pop_back();
+      const auto shown = answer(questions, scissored);
+      if (!shown || !differs(*shown)) continue;
+      bool fits = true;
+      for (int p = 0; p < kSize * kSize; ++p) {
+        const auto s = static_cast<std::size_t>(p);
+        const bool inside = std::min(p % kSize, p / kSize) >= 2 && std::max(p % kSize, p / kSize) < 6;
+        const bool good = (shown->rival.index.empty() || shown->rival.index[s] == kNoTriangle) &&
+                          (shown->rival.depth.empty() || shown->rival.depth[s] == shown->right.depth[s]);
+        fits = fits && good == inside;
+      }
+      if (fits)
+        return std::string(with) +
+               "the depth that is there before the frame is read inside the first draw's scissor alone";
+    }
     if (std::string places = about_places_before(questions); !places.empty()) return places;
     for (const int samples : {1, 4}) {
       scene.samples = samples;
@@ -207,6 +227,21 @@ std::string about_depth_write(const Questions& questions) {
     if (index_of(questions, scene) != 0u) continue;
     scene.draws[1].depth_write = false;
     if (index_of(questions, scene) == 1u) return "where depth write is off the depth test is off, too";
+  }
+  // A near one that writes no depth, over everything and over a part of every block, and a far one after it.
+  std::array<std::optional<std::uint32_t>, 2> seen;
+  for (const std::size_t part : {0u, 1u}) {
+    Scene scene = layers(questions, DepthTest::less, {0.25, 0.75}, true);
+    if (index_of(questions, scene) != 0u) return "";
+    scene.draws[0].depth_write = false;
+    if (part == 1) {
+      scene.draws[0].vertices = {corner(1.125, 1.25, 0.25), corner(6.5, 2.125, 0.25), corner(2.25, 6.625, 0.25)};
+    }
+    seen[part] = index_of(questions, scene);
+  }
+  if (seen[0] == 0u && seen[1] == 1u) {
+    return "a draw that does not write depth hides what comes after it where it covers whole blocks of pixels: it "
+           "writes the coarse depth of blocks, though not depth";
   }
   return "";
 }

@@ -163,6 +163,10 @@ std::string about_small_of_samples(const Questions& questions) {
               std::ranges::none_of(shown->rival.count, [](std::uint32_t n) { return n != 0; });
     }
     if (all > 1 && lost == all) {
+      // Where a sliver is lost with one sample, too, which rounds to a line of whole pixels, this is about slivers.
+      Scene sliver = empty_scene(8, 8);
+      add_triangle(sliver.draws[0], {corner(1.25, 1), corner(6.25, 5.875), corner(3.75, 4.25)}, questions.model.culled);
+      if (const auto shown = answer(questions, sliver); !shown || differs(*shown)) return "";
       return "with several samples a pixel triangles smaller than one are lost where they miss its centre, though they "
              "cover a sample";
     }

@@ -29,7 +29,7 @@ std::vector<Wrong> shown_of(const Questions& questions, Interpolation kind, bool
                             std::optional<Interpolation> second = std::nullopt) {
   Random random(0xA77 + static_cast<std::uint64_t>(kind) + (perspective ? 16 : 0));
   std::vector<Wrong> all;
-  for (int n = 0; n < 10; ++n) {
+  for (int n = 0; n < 14; ++n) {
     Scene scene;
     scene.width = scene.height = kSize;
     if (attributes) scene.attributes = {{"a", 3, kind}, {"b", 3, second.value_or(kind)}};
@@ -42,6 +42,11 @@ std::vector<Wrong> shown_of(const Questions& questions, Interpolation kind, bool
         const double z = std::nearbyint(1024 * unit(random, 0.1, 0.9)) / 1024;
         v = random_corner(random, {0, kSize}, {0, kSize}, z, w);
       }
+      // The last ones have a level edge, or an upright one.
+      const SceneVertex& from = c[static_cast<std::size_t>(n % 3)];
+      SceneVertex& to = c[static_cast<std::size_t>((n + 1) % 3)];
+      if (n == 10 || n == 12) to.y = from.y / from.w * to.w;
+      if (n == 11 || n == 13) to.x = from.x / from.w * to.w;
       const auto x = [&c](std::size_t i) { return double{c[i].x} / c[i].w; };
       const auto y = [&c](std::size_t i) { return double{c[i].y} / c[i].w; };
       turn = (x(1) - x(0)) * (y(2) - y(0)) - (y(1) - y(0)) * (x(2) - x(0));
@@ -354,6 +359,50 @@ std::vector<Seen> attributes_of(const Questions& questions, const std::vector<Wr
   });
 }
 
+// Arrays of one to four components, alone: are their values read as far apart as they are? Behind the triangle's vertices there
+// are others.
+std::string about_components(const Questions& questions, Interpolation kind) {
+  unsigned wrong = 0, bad = 0;  // the last that is wrong, and how many are
+  for (unsigned n = 1; n <= 4; ++n) {
+    Scene scene = empty_scene(8, 8);
+    scene.attributes = {{"a", n, kind}};
+    SceneDraw& draw = scene.draws[0];
+    for (const double x : {0, -9, -10, -11})
+      add_triangle(draw, {corner(x + 1.125, 1.25), corner(x + 6.5, 2.125), corner(x + 2.25, 6.625)},
+                   questions.model.culled);
+    // The values of vertex v, where each begins `stride` after the one before it: the largest first, whatever n.
+    const auto give = [&](unsigned stride) {
+      for (unsigned v = 0; v < draw.vertices.size(); ++v) {
+        draw.vertices[v].attributes.clear();
+        for (unsigned k = 0; k < n; ++k)
+          draw.vertices[v].attributes.push_back(static_cast<float>((46 + 4 * (stride * v + k)) % 47) / 8);
+      }
+    };
+    give(n);
+    const auto image = questions.rival(scene);
+    if (!image || image->attributes.empty() || image->attributes[0].size() != 64 * n) return "";
+    for (unsigned stride = n, tried = 0; tried < 4; ++tried, stride = stride % 4 + 1) {
+      give(stride);
+      const auto as = questions.right(scene);
+      unsigned good = 0, far = 0;
+      for (const unsigned s : {2u * 8 + 3, 3u * 8 + 3, 4u * 8 + 2, 2u * 8 + 5}) {
+        for (std::size_t i = n * s; as && i < n * (s + 1); ++i) {
+          const float got = image->attributes[0][i], due = as->attributes[0][i];
+          good += alike(got, due), far += !(std::abs(got - due) < 0.125f);
+        }
+      }
+      if (good == 4 * n && tried == 0) break;
+      if (good == 4 * n) {
+        return text(" of %u components are read as if they had %u: vertices are as far apart as that", n, stride);
+      }
+      if (tried != 0) continue;
+      if (2 * far < 4 * n) return "";  // some are wrong, or all a little: that is another question
+      wrong = n, ++bad;
+    }
+  }
+  return bad == 1 ? text(" of %u components are wrong, those of other numbers are right", wrong) : "";
+}
+
 std::string about_attributes_of(const Questions& questions, Interpolation kind, bool perspective) {
   const std::vector<Wrong> all = shown_of(questions, kind, perspective, true);
   const Kind wanted = kind == Interpolation::flat            ? kFlat
@@ -410,6 +459,7 @@ std::string about_attributes_of(const Questions& questions, Interpolation kind, 
   }
   if (ways[0].empty() && ways[1].empty() && ways[2].empty())
     return std::string("of several ") + name + " only the first is right";
+  if (std::string components = about_components(questions, kind); !components.empty()) return name + components;
   return std::string(name) + " inside of plain triangles are wrong";
 }
 

@@ -27,6 +27,16 @@ Three by_height(const At& at, const Three& l) {
   return {l[order[0]], l[order[1]], l[order[2]]};
 }
 
+// The values of the two that are alike in an axis are exchanged.
+Three alike_exchanged(const At& at, std::size_t axis, Three l) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (at.corners[i][axis] != at.corners[(i + 1) % 3][axis]) continue;
+    std::swap(l[i], l[(i + 1) % 3]);
+    break;
+  }
+  return l;
+}
+
 constexpr const char* kUnsorted =
     "those of other vertices: positions are sorted by y, and what belongs to the vertices is not sorted with them";
 
@@ -68,6 +78,12 @@ constexpr Way kWays[] = {
      [](const At& at) { return turned(at.weights(), 1, 2, 0); }},
     {kUnsorted, [](const At& at) { return by_height(at, at.weights()); }},
     {kUnsorted, [](const At& at) { return by_height(at, divided(at, at.weights())); }},
+    {"those of other vertices: in triangles with a level edge its two are exchanged",
+     [](const At& at) { return alike_exchanged(at, 1, divided(at, at.weights())); }},
+    {"those of other vertices: in triangles with a level edge its two are exchanged",
+     [](const At& at) { return alike_exchanged(at, 1, at.weights()); }},
+    {"those of other vertices: in triangles with an upright edge its two are exchanged",
+     [](const At& at) { return alike_exchanged(at, 0, divided(at, at.weights())); }},
     {"divided by W, and not multiplied by it again: the division at the end is missing",
      [](const At& at) {
        const Three l = at.weights();
@@ -114,11 +130,24 @@ constexpr Change kAtVertices[] = {{"clamped to 0 to 1", [](double v) { return st
                                   {"0 where they are negative", [](double v) { return std::max(v, 0.0); }},
                                   {"without their sign", [](double v) { return std::abs(v); }}};
 
-// Values that are taken once for several pixels.
+// Values that are taken once for several pixels; the largest first.
 struct Block {
   int width, height;
 };
-constexpr Block kBlocks[] = {{2, 2}, {2, 1}, {1, 2}, {4, 4}, {4, 1}, {8, 8}, {8, 1}, {16, 16}, {16, 1}};
+constexpr Block kBlocks[] = {{16, 16}, {8, 8}, {16, 1}, {4, 4}, {8, 1}, {2, 2}, {4, 1}, {2, 1}, {1, 2}};
+
+// Those whose place lies in the triangle.
+template <class Where>
+std::vector<Seen> inside_at(const std::vector<Seen>& seen, const Where& place) {
+  std::vector<Seen> inside;
+  std::copy_if(seen.begin(), seen.end(), std::back_inserter(inside), [&](const Seen& s) {
+    At at = s.at;
+    at.x = place(s)[0], at.y = place(s)[1];
+    const Three l = at.weights();
+    return std::min({l[0], l[1], l[2]}) > 0.01;
+  });
+  return inside;
+}
 
 std::string block_way(const std::vector<Seen>& seen, Kind kind) {
   const auto at_place = [kind](const Seen& s, double x, double y) {
@@ -173,12 +202,17 @@ std::string block_way(const std::vector<Seen>& seen, Kind kind) {
     const auto begin = [&](const Seen& s) {
       return std::array{first(s.at.x, block.width), first(s.at.y, block.height)};
     };
-    if (all_are(seen, [&](const Seen& s) { return at_place(s, begin(s)[0], begin(s)[1]); }))
-      return "taken once for each block of " + size + ", at its upper left one";
     const auto middle = [&](const Seen& s) {
-      return at_place(s, std::floor(begin(s)[0]) + block.width / 2.0, std::floor(begin(s)[1]) + block.height / 2.0);
+      return std::array{std::floor(begin(s)[0]) + block.width / 2.0, std::floor(begin(s)[1]) + block.height / 2.0};
     };
-    if (all_are(seen, middle)) return "taken once for each block of " + size + ", at its middle";
+    for (const bool at_corner : {true, false}) {
+      const auto where = [&](const Seen& s) { return at_corner ? begin(s) : middle(s); };
+      const auto there = [&](const Seen& s) { return at_place(s, where(s)[0], where(s)[1]); };
+      // Beyond its edges a triangle may have any values.
+      if (!all_are(inside_at(seen, where), there)) continue;
+      return "taken once for each block of " + size + (at_corner ? ", at its upper left one" : ", at its middle") +
+             (all_are(seen, there) ? "" : ", as far as that lies in the triangle");
+    }
     const auto carried = [&](const Seen& s) {
       const auto [x, y] = begin(s);
       const double v = at_place(s, x, y);
@@ -186,6 +220,25 @@ std::string block_way(const std::vector<Seen>& seen, Kind kind) {
     };
     if (block.width * block.height > 2 && all_are(seen, carried))
       return "right at the first pixel of each block of " + size + ", and carried on from there in even steps";
+  }
+  // Wherever it is taken: the same for all that a triangle has of a block.
+  for (const Block& block : kBlocks) {
+    const auto place = [&block](const Seen& s) {
+      return std::array{std::floor(s.at.x / block.width), std::floor(s.at.y / block.height)};
+    };
+    std::size_t pairs = 0, alike = 0;
+    for (std::size_t i = 0; i < seen.size(); ++i) {
+      for (std::size_t k = i + 1; k < seen.size() && seen[k].at.corners == seen[i].at.corners; ++k) {
+        const auto right = [&](std::size_t n) { return at_place(seen[n], seen[n].at.x, seen[n].at.y); };
+        if (place(seen[k]) != place(seen[i]) || seen[k].values != seen[i].values || close(right(i), right(k), 8))
+          continue;
+        ++pairs, alike += close(seen[i].got, seen[k].got, 1);
+      }
+    }
+    if (pairs < 100 || 50 * alike < 49 * pairs) continue;
+    if (block.height == 16) break;  // all of the target: that is another question
+    return text("the same in all pixels that a triangle has of a block of %d x %d: taken once for all of them",
+                block.width, block.height);
   }
   return "";
 }
@@ -199,10 +252,22 @@ double turn_of(const At& at) {
   const auto& c = at.corners;
   return (c[1][0] - c[0][0]) * (c[2][1] - c[0][1]) - (c[1][1] - c[0][1]) * (c[2][0] - c[0][0]);
 }
+bool two_are_alike(const Three& v) {
+  return v[0] == v[1] || v[1] == v[2] || v[0] == v[2];
+}
 constexpr Some kSome[] = {
     {"where vertices 0 and 1 have the same W", [](const At& at) { return at.w[0] == at.w[1]; }},
     {"where vertices 1 and 2 have the same W", [](const At& at) { return at.w[1] == at.w[2]; }},
     {"where vertices 0 and 2 have the same W", [](const At& at) { return at.w[0] == at.w[2]; }},
+    {"where two vertices have the same W", [](const At& at) { return two_are_alike(at.w); }},
+    {"in triangles with a level edge (two vertices of one Y)",
+     [](const At& at) {
+       return two_are_alike({at.corners[0][1], at.corners[1][1], at.corners[2][1]});
+     }},
+    {"in triangles with an upright edge (two vertices of one X)",
+     [](const At& at) {
+       return two_are_alike({at.corners[0][0], at.corners[1][0], at.corners[2][0]});
+     }},
     {"in back faces (counter-clockwise on the screen)", [](const At& at) { return turn_of(at) < 0; }},
     {"in front faces (clockwise on the screen)", [](const At& at) { return turn_of(at) > 0; }}};
 
@@ -215,6 +280,7 @@ std::string way_of(const std::vector<Seen>& seen, Kind kind) {
     std::vector<Seen> those, others;
     for (const Seen& s : seen) (some.has(s.at) ? those : others).push_back(s);
     if (those.size() < 24 || others.size() < 24 || !way_of_all(others, kind).empty()) continue;
+    if (std::ranges::all_of(those, [&](const Seen& s) { return s.at.corners == those[0].at.corners; })) continue;
     way = way_of_all(those, kind);
     // What nobody knows is said of them if nearly all are wrong.
     const auto right = std::count_if(those.begin(), those.end(), [kind](const Seen& s) {
@@ -233,19 +299,14 @@ std::string way_of_all(const std::vector<Seen>& seen, Kind kind) {
     if (all_are(seen, [&way](const Seen& s) { return mixed(way.weights(s.at), s.values); })) return way.text;
   }
   for (const Place& place : kPlaces) {
-    const auto at_place = [&place](const Seen& s) {
+    const auto where = [&place](const Seen& s) { return std::array{s.at.x + place.x, s.at.y + place.y}; };
+    const auto there = [&](const Seen& s) {
       At at = s.at;
-      at.x += place.x, at.y += place.y;
-      return at;
+      at.x = where(s)[0], at.y = where(s)[1];
+      return mixed(right_weights(at, kind), s.values);
     };
     // Beyond its edges a triangle may have any values.
-    std::vector<Seen> inside;
-    std::copy_if(seen.begin(), seen.end(), std::back_inserter(inside), [&](const Seen& s) {
-      const Three l = at_place(s).weights();
-      return std::min({l[0], l[1], l[2]}) > 0.01;
-    });
-    const auto there = [&](const Seen& s) { return mixed(right_weights(at_place(s), kind), s.values); };
-    if (kind != kFlat && all_are(inside, there)) return std::string("taken ") + place.text;
+    if (kind != kFlat && all_are(inside_at(seen, where), there)) return std::string("taken ") + place.text;
   }
   const auto right = [kind](const Seen& s) { return mixed(right_weights(s.at, kind), s.values); };
   if (all_are(seen, [&](const Seen& s) { return std::clamp(right(s), 0.0, 1.0); })) return "clamped to 0 to 1";

@@ -273,6 +273,16 @@ constexpr Some kSome[] = {
 
 }  // namespace
 
+bool all_come(const std::vector<Seen>& seen, double (*of)(const void* context, const Seen& s), const void* context) {
+  std::size_t good = 0;
+  for (const Seen& s : seen) {
+    const double size = std::max({std::abs(s.values[0]), std::abs(s.values[1]), std::abs(s.values[2])});
+    const double wanted = of(context, s);
+    good += std::isfinite(wanted) && close(wanted, s.got, size);
+  }
+  return seen.size() >= 24 && 50 * good >= 49 * seen.size();
+}
+
 std::string way_of(const std::vector<Seen>& seen, Kind kind) {
   std::string way = way_of_all(seen, kind);
   if (way != "?") return way;

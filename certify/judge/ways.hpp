@@ -55,16 +55,15 @@ inline double mixed(const Three& weights, const Three& values) {
   return weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2];
 }
 
+// Is what came everywhere what `of` makes of it? Rounding may put a few beside what is about the value.
+bool all_come(const std::vector<Seen>& seen, double (*of)(const void* context, const Seen& s), const void* context);
+
 template <typename Of>
 bool all_are(const std::vector<Seen>& seen, const Of& of) {
-  std::size_t good = 0;
-  for (const Seen& s : seen) {
-    const double size = std::max({std::abs(s.values[0]), std::abs(s.values[1]), std::abs(s.values[2])});
-    const double wanted = of(s);
-    good += std::isfinite(wanted) && close(wanted, s.got, size);
-  }
-  // Rounding may put a few beside what is about the value.
-  return seen.size() >= 24 && 50 * good >= 49 * seen.size();
+  return all_come(
+      seen,
+      [](const void* context, const Seen& s) { return static_cast<double>((*static_cast<const Of*>(context))(s)); },
+      &of);
 }
 
 inline Three right_weights(const At& at, Kind kind) {

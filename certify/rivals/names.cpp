@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 
 #include "certify/judge/facts.hpp"
@@ -109,8 +110,8 @@ struct Asked {
 };
 
 // The frame under the rival's model, as `render` draws it.
-template <class Render>
-std::optional<corpus::Image> under_model(const RivalSubject& subject, const Scene& scene, const Render& render) {
+std::optional<corpus::Image> under_model(const RivalSubject& subject, const Scene& scene,
+                                         const std::function<Status(const Target&, std::span<const Draw>)>& render) {
   const Scene under = adapters::scene_under_model(scene, subject.rival->info());
   corpus::Frame frame(under, outputs_with(*subject.rival, scene));
   if (validate(frame.target(), frame.draws()) != Status::ok) return std::nullopt;

@@ -30,7 +30,7 @@ async function scenes(place) {
 async function writeCompressed(name, bytes) {
   const path = join(folder, name);
   await writeFile(path, bytes);
-  await promisify(execFile)("xz", ["--format=lzma", "--lzma1=preset=9e,lc=4,pb=0", path]);
+  await promisify(execFile)("xz", ["--format=lzma", "--lzma1=preset=9e,lc=4,pb=0,mf=bt2", path]);
   const packed = await readFile(`${path}.lzma`);
   if (Buffer.compare(unpackLzma(packed), Buffer.from(bytes)) !== 0) throw new Error(`${name} does not come back as it was`);
   return packed.length;

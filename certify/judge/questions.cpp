@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "certify/judge/room.hpp"
+
 namespace surefill::judge {
 
 namespace {
@@ -238,7 +240,7 @@ std::string about_states_kept(const Questions& questions) {
         return std::string("after a frame with ") + state.name + " the next one, without it, is wrong: state is kept";
       }
       // Does a state that a frame ends with keep the depth of that frame from being cleared?
-      if (&state - kStates >= static_cast<std::ptrdiff_t>(kOfDraws)) continue;
+      if (!kAsksAll || &state - kStates >= static_cast<std::ptrdiff_t>(kOfDraws)) continue;
       SceneDraw near;
       near.cull = state.cull;
       add_triangle(near, over_all(scene.width, scene.height, 1.0 / 32), questions.model.culled);

@@ -8,6 +8,7 @@
 
 #include "certify/judge/drawings.hpp"
 #include "certify/judge/questions.hpp"
+#include "certify/judge/room.hpp"
 #include "certify/judge/text.hpp"
 #include "certify/judge/ways.hpp"
 
@@ -293,7 +294,9 @@ std::string about_begun_beyond(const Questions& questions) {
 }  // namespace
 
 std::string about_values_of_cut(const Questions& questions) {
-  if (std::string sentence = about_begun_beyond(questions); !sentence.empty()) return sentence;
+  if (kAsksAll) {
+    if (std::string sentence = about_begun_beyond(questions); !sentence.empty()) return sentence;
+  }
   for (const Place& place : kPlaces) {
     if (std::string sentence = about_place(questions, place); !sentence.empty()) return sentence;
   }

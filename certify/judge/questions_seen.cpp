@@ -2,6 +2,7 @@
 //
 // Questions about how often a triangle counts, and who is seen: where depths are equal, where depth was there before, and what is written where a test fails.
 #include "certify/judge/questions.hpp"
+#include "certify/judge/room.hpp"
 
 namespace surefill::judge {
 
@@ -131,8 +132,8 @@ std::string about_before(const Questions& questions) {
     Scene scissored = layers(questions, test, {0.5, 0.5}, true);
     scissored.initial_depth = scene.initial_depth;
     scissored.draws[0].scissor = Scissor{2, 2, 6, 6};
-    for (const bool two : {true, false}) {
-      if (!two) scissored.draws.pop_back();
+    for (int two = kAsksAll ? 1 : -1; two >= 0; --two) {
+      if (two == 0) scissored.draws.pop_back();
       const auto shown = answer(questions, scissored);
       if (!shown || !differs(*shown)) continue;
       bool fits = true;
@@ -228,6 +229,7 @@ std::string about_depth_write(const Questions& questions) {
     scene.draws[1].depth_write = false;
     if (index_of(questions, scene) == 1u) return "where depth write is off the depth test is off, too";
   }
+  if (!kAsksAll) return "";
   // A near one that writes no depth, over everything and over a part of every block, and a far one after it.
   std::array<std::optional<std::uint32_t>, 2> seen;
   for (const std::size_t part : {0u, 1u}) {

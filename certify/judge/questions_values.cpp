@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "certify/judge/questions.hpp"
+#include "certify/judge/room.hpp"
 #include "certify/judge/text.hpp"
 #include "certify/judge/ways.hpp"
 
@@ -459,7 +460,9 @@ std::string about_attributes_of(const Questions& questions, Interpolation kind, 
   }
   if (ways[0].empty() && ways[1].empty() && ways[2].empty())
     return std::string("of several ") + name + " only the first is right";
-  if (std::string components = about_components(questions, kind); !components.empty()) return name + components;
+  if (kAsksAll) {
+    if (std::string components = about_components(questions, kind); !components.empty()) return name + components;
+  }
   return std::string(name) + " inside of plain triangles are wrong";
 }
 

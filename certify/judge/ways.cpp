@@ -3,6 +3,7 @@
 
 #include <iterator>
 
+#include "certify/judge/room.hpp"
 #include "certify/judge/text.hpp"
 
 namespace surefill::judge {
@@ -221,6 +222,7 @@ std::string block_way(const std::vector<Seen>& seen, Kind kind) {
     if (block.width * block.height > 2 && all_are(seen, carried))
       return "right at the first pixel of each block of " + size + ", and carried on from there in even steps";
   }
+  if (!kAsksAll) return "";
   // Wherever it is taken: the same for all that a triangle has of a block.
   for (const Block& block : kBlocks) {
     const auto place = [&block](const Seen& s) {

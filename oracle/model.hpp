@@ -145,11 +145,9 @@ struct Model {
   friend bool operator==(const Model&, const Model&) = default;
 };
 
-// R9: the least W of the vertices that remain where the triangle may be cut, new ones being among them; 0: none that is known.
+// R9: the W of new vertices where the triangle has one of less; 0: it has not.
 inline double least_w_of_cut(const Model& model, const std::array<Vertex, 3>& t) {
-  const double least = std::min({t[0].w, t[1].w, t[2].w});
-  if (least < model.least_w) return model.least_w;
-  return least > 0 && (std::isfinite(model.band) || model.clipped) ? least : 0;
+  return std::min({t[0].w, t[1].w, t[2].w}) < model.least_w ? model.least_w : 0;
 }
 
 // R9: how much further from its edges, in pixels, such a triangle is open: new vertices come of roundings of float32, and are

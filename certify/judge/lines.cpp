@@ -263,7 +263,8 @@ std::optional<LineModel> fit_lines(const Expected& expected, const Model& model,
       });
     }
     if (!wide) best->wide = LineModel{}.wide;
-    best->blur = std::max(best->blur, grid_step(model));
+    // Of diamonds so many show it.
+    if ((wide ? best->wide : best->thin) != LineShape::diamond) best->blur = std::max(best->blur, grid_step(model));
     return best;
   }
   return std::nullopt;

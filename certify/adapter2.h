@@ -137,7 +137,7 @@ typedef struct surefill_adapter2_model {
   uint32_t turned; /* triangles that snapping turns over (R8) */
   uint32_t culled; /* SUREFILL_ADAPTER_CULL_FRONT, CULL_BACK: always (R10) */
   surefill_adapter2_axis x, y;
-  double least_area;      /* R8: twice the area */
+  double least_area;      /* R8: in square pixels; smaller triangles may be left out */
   double least_w, most_w; /* R9 */
   double clip_near, clip_far;
   double clear;          /* of the depth buffer (R12) */

@@ -127,7 +127,7 @@ struct Model {
   Owners front = owners_of(FillRule::top_left), back = front;
   AtVertices vertices = AtVertices::as_edges;
   Turned turned = Turned::open;
-  double least_area = 0;    // twice the area in pixels: R8
+  double least_area = 0;    // in square pixels: R8
   bool draws_flat = false;  // triangles in a line are drawn somehow: R8
   double least_w = 0, most_w = std::numeric_limits<double>::infinity();
   double band = std::numeric_limits<double>::infinity();  // pixels beyond the target, on an axis: R9

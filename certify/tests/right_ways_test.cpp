@@ -149,6 +149,23 @@ TEST(RightWays, NewVerticesAreRounded) {
   EXPECT_NE(kept(0.5f), "");
 }
 
+// A clipper's pieces of a triangle may lie one over the other where roundings of its new vertices are large, and not else.
+TEST(RightWays, PiecesOfWhatIsCut) {
+  const Scene scene = alone(3, 3, {corner(0x1p-23f, 0, 0, 0), corner(1, -1, 0, 0), corner(2.5f, 1, 0, 1)});
+  Terms terms = known_terms();
+  const auto counted = [&](double least_w, std::uint32_t count) {
+    terms.model.least_w = least_w;
+    return said_of(scene, terms, {true, false, false, false, false}, [count](Image& image) {
+      for (std::uint32_t& c : image.count) c = c == 0 ? 0 : count;
+    });
+  };
+  EXPECT_EQ(counted(1e-7, 1), "");
+  EXPECT_EQ(counted(1e-7, 8), "");
+  EXPECT_NE(counted(1e-7, 9), "");
+  EXPECT_EQ(counted(1.0 / 64, 1), "");
+  EXPECT_NE(counted(1.0 / 64, 2), "");
+}
+
 // Positions are rounded to whole pixels; the samples are in their middles, or at their corners.
 class WholePixels : public Rival {
  public:

@@ -178,6 +178,22 @@ TEST(ModelLines, ShapesByHand) {
   EXPECT_EQ(line(flat(0.5f, 1.5f, 3.25f, 1.5f), 1.0f), "...../o##../...../");
 }
 
+// R18: what a wide line of another rule may cover, about its ends and by either axis.
+TEST(ModelLines, TolerantOfAWidth) {
+  Model model;
+  model.lines.wide = LineShape::tolerant;
+  const auto line = [&](const Ends& ends, float width, int size) {
+    return picture(cover_line(model, size, size, ends, width), size);
+  };
+  // Within one diamond, so that M7 covers nothing: the column and the row of three pixels about it, and a pixel around them.
+  EXPECT_EQ(line(flat(2.6f, 2.5f, 2.9f, 2.5f), 3.0f, 6), ".ooo../ooooo./ooooo./ooooo./.ooo../....../");
+  EXPECT_EQ(line(flat(2.6f, 2.5f, 2.9f, 2.5f), 1.0f, 6), "....../.ooo../.ooo../.ooo../....../....../");
+  // |dx| and |dy| differ by 1.9 pixels, and by 2.1: rows of 15 pixels are open, too, and not.
+  const auto row = [&](float y) { return line(flat(10.5f, 4.5f, 16.5f, y), 15.0f, 24).substr(6 * 25, 24); };
+  EXPECT_EQ(row(8.6f).find('o'), 3u) << row(8.6f);
+  EXPECT_EQ(row(8.4f).find('o'), 9u) << row(8.4f);
+}
+
 TEST(ModelLines, WhatIsBehindIsOpenNearby) {
   Model model;
   const Ends ray{{{2, 8, 0, 1}, {10, 0, 0, -0.001f}}};  // to the right and up

@@ -342,6 +342,19 @@ TEST(Model, WhatMayBeCutIsOpenNearItsEdges) {
   EXPECT_EQ(picture(model, 2, 2, {{{0, 0, -1, 1}, {512 * 4, 0, 0, 512}, {0, 4, 0, 1}}}), "oo/oo/");
 }
 
+// R8: of less than so many square pixels.
+TEST(Model, SmallTrianglesMayBeLeftOut) {
+  Model model;
+  const std::array<Vertex, 3> half{
+      {{0.25f, 0.25f, 0, 1}, {1.25f, 0.25f, 0, 1}, {0.25f, 1.25f, 0, 1}}};  // of half a pixel
+  const auto at = [&](double least) {
+    model.least_area = least;
+    return cover(model, 1, 1, 1, half)[0];
+  };
+  EXPECT_EQ(at(0.49), Cover::yes);
+  EXPECT_EQ(at(0.51), Cover::open);
+}
+
 TEST(Model, ARuleIsWatertightIfBothFacingsGoByIt) {
   for (int rule = 0; rule < 8; ++rule) {
     Model model;

@@ -206,8 +206,17 @@ Placed place_triangle(const Model& model, int width, int height, const std::arra
 // R7 at one sample.
 Cover answer_at(const Model& model, const Placed& placed, const Sample& sample, double certain) {
   const Owners& owners = placed.front ? model.front : model.back;
+  if (model.vertices != AtVertices::as_edges) {
+    const bool at_vertex = std::any_of(placed.boxes.begin(), placed.boxes.end(), [&sample](const Box& box) {
+      return box.is_point() && sample.is_point() && end_of(box.x, 0) == sample.x(0) && end_of(box.y, 0) == sample.y(0);
+    });
+    if (at_vertex) {
+      return model.vertices == AtVertices::covered       ? Cover::yes
+             : model.vertices == AtVertices::not_covered ? Cover::no
+                                                         : Cover::open;
+    }
+  }
   bool open = false;
-  int on_edges = 0;
   bool refused = false;
   for (std::size_t i = 0; i < 3; ++i) {
     const Box &p = placed.boxes[i], &q = placed.boxes[(i + 1) % 3];
@@ -218,18 +227,12 @@ Cover answer_at(const Model& model, const Placed& placed, const Sample& sample, 
       open = true;
       continue;
     }
-    ++on_edges;
     const std::uint8_t side = bit(side_of(p, q));
     if (owners.open & side) {
       open = true;
     } else if (!(owners.owned & side)) {
       refused = true;
     }
-  }
-  if (on_edges == 2 && model.vertices != AtVertices::as_edges) {
-    return model.vertices == AtVertices::covered       ? Cover::yes
-           : model.vertices == AtVertices::not_covered ? Cover::no
-                                                       : Cover::open;
   }
   if (refused) return Cover::no;
   return open ? Cover::open : Cover::yes;

@@ -48,6 +48,8 @@ enum class Side : std::uint8_t { left, right, top, bottom, top_left, top_right, 
 inline constexpr std::uint8_t bit(Side side) {
   return static_cast<std::uint8_t>(1u << static_cast<unsigned>(side));
 }
+inline constexpr std::uint8_t kSlanted =
+    bit(Side::top_left) | bit(Side::top_right) | bit(Side::bottom_left) | bit(Side::bottom_right);
 struct Owners {
   std::uint8_t owned = 0;
   std::uint8_t open = 0;  // these are not known, whatever `owned` says

@@ -183,11 +183,19 @@ bool find_grid(const std::vector<Span>& steps, AxisFit& fit) {
     const Arc arc = arc_of(phases);
     if (arc.length > 0.25) continue;
     fit.bits = bits;
-    // Boundaries are at sixteenths of a step, as far as rounding on the way shows.
+    // Boundaries are at halves of a step, or at sixteenths, as far as rounding on the way shows; on a grid nearly as fine as
+    // what can be asked each of these places is known to a part of a step.
+    const auto put = [&](double phase) { fit.boundary = std::ldexp(phase - std::floor(phase), -bits); };
+    put(std::nearbyint(arc.middle * 2) / 2);
+    if (std::ranges::all_of(steps, [&](const Span& step) {
+          return distance_to(step, nearest_boundary(fit, (step.low + step.high) / 2)) < std::ldexp(1.0 / 80, -bits);
+        })) {
+      return true;
+    }
     const double round = std::nearbyint(arc.middle * 16) / 16;
     const double off = std::ldexp(std::abs(round - arc.middle), -bits);
     const bool is_round = off <= std::ldexp(arc.length, -bits) + 0x1p-15 && std::abs(round - arc.middle) < 1.0 / 80;
-    fit.boundary = std::ldexp(is_round ? round - std::floor(round) : arc.middle, -bits);
+    put(is_round ? round : arc.middle);
     if (!is_round) fit.blur = 0x1p-20;  // a rounding of float32 below 16: whoever does this does not do it exactly
     return true;
   }
@@ -372,7 +380,8 @@ std::optional<double> usual_place(double low, double high, int* oddity) {
     const auto [unit, offset] = kUnits[i];
     const double round = std::ceil((low - offset) / unit - 0x1p-30) * unit + offset;
     if (round > high + 0x1p-30 || round < -0.75 || round > 1.75) continue;
-    if (i > 0 && high - low > 1.0 / 64) continue;
+    // Of a grid of whole pixels edges say little.
+    if (i > 0 && high - low > (i == 1 ? 1.0 / 8 : 1.0 / 64)) continue;
     *oddity = static_cast<int>(4 * i);
     return round;
   }

@@ -59,9 +59,33 @@ void infer_w(Rival& rival, Inference& result) {
   }
 }
 
+// From 1/2 to where nothing is drawn any more: the last depth that is, or an infinity.
+double limit_of_depth(Rival& rival, const Model& model, double farthest) {
+  if (covers(rival, large(model, static_cast<float>(farthest)))) return farthest < 0 ? -INFINITY : INFINITY;
+  double drawn = 0.5, left_out = farthest;
+  // Between magnitudes that are far apart by their root.
+  for (int n = 0; n < 80 && static_cast<float>(drawn) != static_cast<float>(left_out); ++n) {
+    double middle = (drawn + left_out) / 2;
+    if (drawn * left_out > 0 && std::max(drawn / left_out, left_out / drawn) > 4) {
+      middle = std::copysign(std::sqrt(drawn * left_out), drawn);
+    } else if (drawn > 0 && left_out < 0) {
+      middle = 0;
+    }
+    if (static_cast<float>(middle) == static_cast<float>(drawn) ||
+        static_cast<float>(middle) == static_cast<float>(left_out))
+      break;
+    (covers(rival, large(model, static_cast<float>(middle))) ? drawn : left_out) = static_cast<float>(middle);
+  }
+  // What is clipped at 0 or 1, or hidden at 1, as roundings and formats of depth have it.
+  if (std::abs(drawn) < 0x1p-20) return 0;
+  return std::abs(drawn - 1) < 0x1p-14 ? 1 : drawn;
+}
+
 void infer_clipping(Rival& rival, Inference& result) {
-  const bool before = covers(rival, large(result.model, -0.5f)), behind = covers(rival, large(result.model, 1.5f));
-  if (before && !behind && !rival.outputs().count) {
+  constexpr double kFarthest = 0x1p20;
+  const double low = limit_of_depth(rival, result.model, -kFarthest),
+               high = limit_of_depth(rival, result.model, kFarthest);
+  if (std::isinf(low) && high == 1 && !rival.outputs().count) {
     // Or a clear value of 1 hides it, which lies behind all with the test GREATER.
     corpus::Scene scene = large(result.model, 1.5f);
     scene.depth_test = DepthTest::greater;
@@ -71,18 +95,19 @@ void infer_clipping(Rival& rival, Inference& result) {
       // Nobody knows, and it is the same to whoever has no other test.
     }
   }
-  if (before && behind) return;
-  result.model.clipped = {before ? -INFINITY : 0.0, behind ? INFINITY : 1.0};
+  if (std::isfinite(low) || std::isfinite(high)) result.model.clipped = {low, high};
 }
 
 // What comes back of flat depths: to the bit, or in steps.
 void infer_format(Rival& rival, Inference& result) {
   corpus::Outputs wanted{};
   wanted.count = wanted.index = wanted.barycentrics = wanted.attributes = false;
+  const auto [from, to] = result.model.clipped.value_or(std::array{0.0, 1.0});
+  const double low = std::max(from, 0.0), high = std::min(to, 1.0);
   bool exact = true, steps24 = true, steps16 = true;
   double largest = 0;
   for (int n = 0; n < 24; ++n) {
-    const auto z = static_cast<float>(std::fmod(0.1 + n * 0.6180339887498949, 0.96) + 0.02);
+    const auto z = static_cast<float>(low + (high - low) * (std::fmod(0.1 + n * 0.6180339887498949, 0.96) + 0.02));
     const corpus::Image image = rival.draw(large(result.model, z), wanted);
     const double got = image.depth[kMiddle], error = std::abs(got - z);
     if (!std::isfinite(got)) return;
@@ -120,7 +145,8 @@ void infer_visibility(Rival& rival, Inference& result, const corpus::Outputs& ha
     const corpus::Image image = rival.draw(large(result.model, z), wanted);
     return has.index ? image.index[kMiddle] != kNoTriangle : std::isfinite(image.depth[kMiddle]);
   };
-  if (!seen(1.0f) || !seen(2.0f)) result.model.clear = 1;
+  const double high = result.model.clipped ? (*result.model.clipped)[1] : INFINITY;
+  if (!seen(1.0f) || !seen(static_cast<float>(high > 1 ? std::min(high, 2.0) : 2.0))) result.model.clear = 1;
   if (!has.index) return;
   corpus::Scene twice = large(result.model, 0.5f);
   // Whose indices are others says nothing by them.

@@ -580,12 +580,12 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
   for (const Draw& draw : frame.draws) {
     Model model = model_of_draw(terms, frame, draw);
     const Cull cull = in_default_facing(draw);
-    // Who has no grid decides ties on slanted edges by a rounding.
-    if (terms.rounds_slanted && model.x.bits < 0 && model.y.bits < 0) {
-      for (const oracle::Side side :
-           {oracle::Side::top_left, oracle::Side::top_right, oracle::Side::bottom_left, oracle::Side::bottom_right}) {
-        model.front.open |= oracle::bit(side), model.back.open |= oracle::bit(side);
-      }
+    // A rounding may decide ties on slanted edges, and on all where there is neither a grid nor a rule of C3's.
+    if (terms.rounds_slanted) {
+      const bool all = model.x.bits < 0 && model.y.bits < 0 && !oracle::watertight_rule(terms.model);
+      const std::uint8_t open = all ? 0xFF : oracle::kSlanted;
+      model.front.open |= open, model.back.open |= open;
+      if (all) model.vertices = oracle::AtVertices::open;
     }
     const bool nothing = model.culled != Cull::none && cull != Cull::none && cull != model.culled;
     if (cull != Cull::none) model.culled = cull;
@@ -622,7 +622,6 @@ Counts counts_under(const Expected& expected, const Terms& terms, const Frame& f
             cover = clipped(cover, depth, (*model.clipped)[0], (*model.clipped)[1]);
           }
           if (hides && cover == Cover::yes && (depth.high >= 1 || (greater && depth.low <= 0))) cover = Cover::open;
-          if (hides && greater && depth.high < 0) cover = Cover::no;
         }
         if (cover == Cover::no) continue;
         counts.most[s] += cover == Cover::open ? pieces : 1;

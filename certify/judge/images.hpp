@@ -20,7 +20,7 @@ struct Terms {
   bool known = false;           // else `model` is the least known one (R13)
   bool draws_own_rule = false;  // its fill rule is each draw's
   bool draws_own_grid = false;
-  bool rounds_slanted = false;  // ties on slanted edges are open: what has no grid and is not stated
+  bool rounds_slanted = false;  // ties on slanted edges are open: R6
   bool counts_seen = false;     // counts are those of what is seen when each triangle is drawn alone
 };
 

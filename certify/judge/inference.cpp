@@ -11,6 +11,8 @@
 #include "certify/judge/facts.hpp"
 #include "certify/judge/owners.hpp"
 #include "certify/judge/places.hpp"
+#include "certify/judge/room.hpp"
+#include "certify/judge/stated.hpp"
 #include "certify/judge/words.hpp"
 
 namespace surefill::judge {
@@ -586,50 +588,39 @@ Inference infer_as_drawn(Rival& rival, const Expected& expected, const std::opti
   return result;
 }
 
-}  // namespace
-
-Model least_known_model() {
-  Model model;
-  model.x.blur = model.y.blur = 1 + 3 * kMostBlur;  // of the place, of t, and r
-  model.front.open = model.back.open = 0xFF;
-  model.vertices = oracle::AtVertices::open;
-  model.lines.thin = model.lines.wide = oracle::LineShape::unknown;
-  model.points.known = false;
-  return model;
-}
-
-// On grids of whole and half pixels, and on one as fine as float32, where edges turn says little: is what is stated what is
-// drawn?
-bool is_as_stated(Rival& rival, const Expected& expected, const Model& stated, const Model& facts) {
-  const auto hard = [](const AxisModel& axis) { return axis.bits == 0 || axis.bits == 1 || axis.bits == 16; };
-  if (!hard(stated.x) && !hard(stated.y)) return false;
-  // No corner of theirs comes to lie on a sample that lies between the places of a grid.
-  const auto between = [](const AxisModel& axis) {
-    const double place = std::ldexp(axis.place - axis.grid_offset - axis.moved, axis.bits);
-    return axis.bits >= 0 && place != std::nearbyint(place);
-  };
+// Does what is stated explain what probing looks at?
+bool explains(Rival& rival, const Expected& expected, const Model& stated, const Model& found) {
   Inference trial;
-  trial.model = with_facts(stated, facts);
+  trial.model = with_facts(stated, found);
+  trial.model.band = found.band;
   std::vector<Probe> probes;
   try {
-    if (!between(stated.x) && !between(stated.y)) infer_owners(rival, trial);
+    if (owners_are_seen(stated)) infer_owners(rival, trial);
     draw_trials(rival, trial, probes);
   } catch (const Declined&) {
     return false;
   }
-  const bool owners = trial.model.front == stated.front && trial.model.back == stated.back;
-  return owners && std::all_of(probes.begin(), probes.end(),
-                               [&](const Probe& probe) { return wrong_samples(expected, trial.model, probe) == 0; });
+  return may_be(stated, trial.model) && std::all_of(probes.begin(), probes.end(), [&](const Probe& probe) {
+           return wrong_samples(expected, trial.model, probe) == 0;
+         });
 }
 
-Inference infer(Rival& rival, const Expected& expected, const std::optional<Model>& declared) {
-  Inference result = infer_as_drawn(rival, expected, declared);
-  if (declared && is_as_stated(rival, expected, *declared, result.model)) {
-    result.model = with_facts(*declared, result.model);
-    result.known = true;
-    result.problems.clear();
-    return result;
-  }
+// Where what is stated may be what was found, it is that.
+void take_stated(Rival& rival, const Expected& expected, const Model& stated, Inference& result) {
+  // There edges turn at few places.
+  const auto hard = [](const AxisModel& axis) { return axis.bits == 0 || axis.bits == 1 || axis.bits == 16; };
+  const bool may = result.known && may_be(in_plain_words(stated), in_plain_words(result.model));
+  if ((!may && !hard(stated.x) && !hard(stated.y)) || !explains(rival, expected, stated, result.model)) return;
+  const double band = result.model.band;
+  result.model = with_facts(stated, result.model);
+  result.model.band = band;
+  if (!may) result.problems.clear();
+  result.known = true;
+}
+
+// The better one of what is found as it comes, and of what is found on the target alone.
+Inference infer_somewhere(Rival& rival, const Expected& expected, const std::optional<Model>& declared,
+                          const Inference& result) {
   const bool plain = result.known && result.problems.empty() && result.model.x.blur == 0 && result.model.y.blur == 0;
   if (plain || !result.offscreen) return result;
   // What cuts triangles near the target shows other edges than those that are asked for, wherever a vertex lies beside it.
@@ -642,6 +633,35 @@ Inference infer(Rival& rival, const Expected& expected, const std::optional<Mode
   if (!std::isfinite(inner.model.band)) return result;
   inner.offscreen = true;
   return inner;
+}
+
+}  // namespace
+
+Model least_known_model() {
+  Model model;
+  model.x.blur = model.y.blur = 1 + 3 * kMostBlur;  // of the place, of t, and r
+  model.front.open = model.back.open = 0xFF;
+  model.vertices = oracle::AtVertices::open;
+  model.lines.thin = model.lines.wide = oracle::LineShape::unknown;
+  model.points.known = false;
+  return model;
+}
+
+Inference infer(Rival& rival, const Expected& expected, const std::optional<Model>& declared) {
+  if (!kAsksAll || !declared) {
+    return infer_somewhere(rival, expected, declared, infer_as_drawn(rival, expected, declared));
+  }
+  const Model plain = in_plain_words(*declared);
+  const auto is_it = [&](Inference& found) {
+    if (found.known && differences(*declared, found.model).empty()) return true;
+    take_stated(rival, expected, *declared, found);
+    return found.known && differences(*declared, found.model).empty();
+  };
+  Inference result = infer_as_drawn(rival, expected, plain);
+  if (is_it(result)) return result;
+  result = infer_somewhere(rival, expected, plain, result);
+  is_it(result);
+  return result;
 }
 
 }  // namespace surefill::judge

@@ -7,6 +7,7 @@
 
 #include "certify/judge/line_rules.hpp"
 #include "certify/judge/probes.hpp"
+#include "certify/judge/room.hpp"
 #include "certify/judge/text.hpp"
 
 namespace surefill::judge {
@@ -21,6 +22,7 @@ using oracle::Outline;
 constexpr int kSize = 16;  // of the target, pixels
 constexpr int kThin = 320, kWide = 240, kPoints = 160;
 constexpr double kMostBlur = 1.0 / 16;
+constexpr double kWidest = 256;  // R20
 
 // A line or a point that was drawn alone.
 struct Drawn {
@@ -214,9 +216,91 @@ std::optional<FillRule> ties_of(const Expected& expected, const Model& model, co
   return std::nullopt;
 }
 
-// The lines of a model that explain all of these, thin or wide ones.
+// Level lines, or points, in the middle of a high target: how wide are they?
+class Heights {
+ public:
+  Heights(Rival& rival, const Model& model, Primitive primitive)
+      : rival_(rival), place_(model.y.place), place_x_(model.x.place), primitive_(primitive) {}
+
+  // What a width is drawn as, if it is drawn 1/16 pixel below a sample.
+  std::optional<double> drawn(double width) const {
+    double in = kMiddle + place_ + 1.0 / 16, out = in + 1;
+    const int first = first_row(width, in);
+    if (first < 0) return std::nullopt;
+    // Down to where it leaves its first row.
+    for (int n = 0; n < 20; ++n) {
+      const double middle = (in + out) / 2;
+      (first_row(width, middle) == first ? in : out) = middle;
+    }
+    return 2 * ((in + out) / 2 - (first + place_));
+  }
+
+ private:
+  static constexpr int kMiddle = 144;
+
+  int first_row(double width, double y) const {
+    LoneLine line{8, 2 * kMiddle, {}, static_cast<float>(width)};
+    for (const std::size_t end : {0u, 1u}) {
+      line.ends[end] = {end == 0 ? -16.0f : 24.0f, on_step(y, rival_.position_step()), 0, 1};
+    }
+    if (primitive_ == Primitive::points) line.ends[0].x = on_step(4 + place_x_, rival_.position_step());
+    const Drawn drawn = *draw_alone(rival_, line, primitive_);
+    for (int row = 0; row < line.height; ++row) {
+      if (drawn.covered[static_cast<std::size_t>(8 * row + 4)]) return row;
+    }
+    return -1;
+  }
+
+  Rival& rival_;
+  double place_, place_x_;
+  Primitive primitive_;
+};
+
+// R20: the range that widths are clamped to, of those from 2 pixels on and up to 1.
+Outline range_of(Rival& rival, const Model& model, Primitive primitive) {
+  Outline outline;
+  outline.ties.reset();
+  if (!kAsksAll) return outline;
+  const Heights heights(rival, model, primitive);
+  const double step = model.y.bits < 0 ? 0 : std::ldexp(1.0, -model.y.bits);
+  const double within = std::max(0x1p-8, 2 * step) + 2 * model.y.blur;
+  const auto nearly = [within](double a, double b) { return std::abs(a - b) <= within; };
+  // What was meant, if it is about a round number.
+  const auto round = [&](double width) {
+    for (const double unit : {1.0, 0.5, 0.25, 0.125}) {
+      const double near = std::nearbyint(width / unit) * unit;
+      if (nearly(near, width)) return near;
+    }
+    return width;
+  };
+  try {
+    const std::optional<double> most = heights.drawn(kWidest);
+    if (most && *most >= 2 && *most < kWidest - 2 &&
+        nearly(heights.drawn(kWidest / 2).value_or(0), std::min(*most, kWidest / 2)) &&
+        nearly(heights.drawn(std::floor(*most / 2)).value_or(0), std::floor(*most / 2))) {
+      outline.most_width = round(*most);
+    }
+    const std::optional<double> least = heights.drawn(1.0 / 16);
+    if (least && *least <= 1 + within) outline.least_width = round(*least);
+    // Widths may be rounded, to whole pixels or less.
+    double off = 0;
+    for (const double width : {2.75, 4.25, 3.4375}) {
+      const double due = std::clamp(width, outline.least_width, outline.most_width);
+      off = std::max(off, std::abs(heights.drawn(width).value_or(due) - due));
+    }
+    for (const double rounded : {0.5, 1.0 / 8, 1.0 / 16}) {
+      if (off > within && off <= rounded) outline.width_within = rounded;
+    }
+  } catch (const Declined&) {
+    // It takes no such target: of what can be asked widths up to 7 are looked at.
+  }
+  return outline;
+}
+
+// The lines of a model that explain all of these, thin or wide ones, whose widths are of this range.
 std::optional<LineModel> fit_lines(const Expected& expected, const Model& model, const std::vector<Drawn>& drawn,
-                                   bool wide, const std::optional<Model>& declared, const Mistake& mistake = kRight) {
+                                   bool wide, const std::optional<Model>& declared, const Outline& range,
+                                   const Mistake& mistake = kRight) {
   const auto with = [&model](const LineModel& lines) {
     Model result = model;
     result.lines = lines;
@@ -235,7 +319,9 @@ std::optional<LineModel> fit_lines(const Expected& expected, const Model& model,
         lines.thin = lines.wide = shape;
         lines.left_out = left_out;
         lines.whole_pixels = whole;
-        lines.outline.ties.reset();
+        lines.outline = range;
+        // R18 rounds, to 1 at the least.
+        if (shape == LineShape::diamond) lines.outline.width_within = lines.outline.least_width = 0;
         candidates.push_back(lines);
       }
     }
@@ -315,10 +401,13 @@ std::string refusal(Standard standard, const LineModel& lines, bool wide) {
 void infer_shape(Rival& rival, const Expected& expected, Standard standard, const std::optional<Model>& declared,
                  bool wide, Inference& result) {
   const std::vector<Drawn> drawn = draw_probes(rival, result.model, Primitive::lines, wide, wide ? kWide : kThin);
+  Outline range;
+  range.ties.reset();
+  if (wide) range = range_of(rival, result.model, Primitive::lines);
   LineModel& lines = result.model.lines;
   LineShape& shape = wide ? lines.wide : lines.thin;
   const auto problem = [&](const std::string& sentence) { result.line_problems.push_back(sentence); };
-  if (const std::optional<LineModel> found = fit_lines(expected, result.model, drawn, wide, declared)) {
+  if (const std::optional<LineModel> found = fit_lines(expected, result.model, drawn, wide, declared, range)) {
     if (wide) {
       lines.wide = found->wide;
       lines.outline = found->outline;
@@ -344,7 +433,7 @@ void infer_shape(Rival& rival, const Expected& expected, Standard standard, cons
   }
   shape = LineShape::unknown;
   for (const Mistake& mistake : kLineMistakes) {
-    if (!wide || !fit_lines(expected, result.model, drawn, wide, declared, mistake)) continue;
+    if (!wide || !fit_lines(expected, result.model, drawn, wide, declared, range, mistake)) continue;
     (standard == Standard::none ? result.open : result.line_problems).push_back(mistake.sentence);
     return;
   }
@@ -377,10 +466,11 @@ void infer_points(Rival& rival, const Expected& expected, Standard standard, con
     points = declared->points;
     return;
   }
+  const Outline range = widths ? range_of(rival, result.model, Primitive::points) : Outline{std::nullopt};
   for (const double within : {0.0, 1.0 / 16, 1.0 / 8, 0.5}) {
     oracle::PointModel whole;
     whole.clipped_whole = true;
-    whole.outline.ties.reset();
+    whole.outline = range;
     whole.outline.border = 0x1p-10;
     if (within > 0 && explains(whole, kWholePoints)) {
       const char* sentence =
@@ -393,7 +483,7 @@ void infer_points(Rival& rival, const Expected& expected, Standard standard, con
     for (const double length : lengths_of(result.model)) {
       oracle::PointModel candidate;
       candidate.clipped_whole = true;
-      candidate.outline.ties.reset();
+      candidate.outline = range;
       candidate.outline.border = length == 0 ? 0 : std::min(2 * length, kMostBlur);
       candidate.outline.width_within = within;
       if (!explains(candidate)) continue;
@@ -423,6 +513,14 @@ void infer_points(Rival& rival, const Expected& expected, Standard standard, con
 
 std::string number(double value) {
   return text("%.3g", value);
+}
+
+std::string range(const Outline& outline) {
+  if (std::isfinite(outline.most_width)) {
+    return ", " + (outline.least_width > 0 ? number(outline.least_width) : "up to") +
+           (outline.least_width > 0 ? " to " : " ") + number(outline.most_width) + " pixels wide";
+  }
+  return outline.least_width > 0 ? ", " + number(outline.least_width) + " pixels wide and more" : "";
 }
 
 std::string precision(double length) {
@@ -483,14 +581,16 @@ std::vector<std::string> describe_lines(const Model& model, const Rival::Primiti
     if (lines.blur > 0) text += ", ends known to " + number(lines.blur) + " px";
     sentences.push_back(text);
     if (drawn.widths) {
-      sentences.push_back(std::string("wide lines go by ") + shape_name(lines.wide) +
-                          (lines.wide == LineShape::diamond ? ", a column or row of pixels at each step" : "") +
-                          precision(lines.outline.border));
+      sentences.push_back(
+          std::string("wide lines go by ") + shape_name(lines.wide) +
+          (lines.wide == LineShape::diamond ? ", a column or row of pixels at each step" : "") + range(lines.outline) +
+          (lines.outline.width_within > 0 ? ", widths known to " + number(lines.outline.width_within) + " px" : "") +
+          precision(lines.outline.border));
     }
   }
   if (drawn.points) {
     std::string text = model.points.known ? "points are squares around their vertex" : "points: unknown";
-    if (model.points.known) text += precision(model.points.outline.border);
+    if (model.points.known) text += range(model.points.outline) + precision(model.points.outline.border);
     if (model.points.outline.width_within > 0)
       text += ", sizes known to " + number(model.points.outline.width_within) + " px";
     sentences.push_back(text);

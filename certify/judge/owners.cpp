@@ -31,6 +31,12 @@ float source_of(double position, const AxisModel& axis, int length) {
 
 constexpr int kLatticeSize = 8;
 
+// Where what is so far from the sample in the middle comes to lie.
+double placed_at(const Rival& rival, const AxisModel& axis, double from_sample) {
+  const float source = on_step(source_of(3 + axis.place + from_sample, axis, kLatticeSize), rival.position_step());
+  return placed(source, axis, kLatticeSize);
+}
+
 // The triangle around the sample in the middle.
 corpus::Image draw_around(Rival& rival, const Model& model, const std::array<std::array<double, 2>, 3>& from_sample) {
   std::array<Point, 3> triangle{};
@@ -158,20 +164,26 @@ void infer_owners(Rival& rival, Inference& result) {
 
 void infer_small(Rival& rival, Inference& result) {
   Model& model = result.model;
-  // In a line, which runs through the sample or past it.
+  // In a line, which runs through the sample or past it, on the grid as well.
   for (const auto& direction : {std::array<int, 2>{1, 1}, {1, 0}, {0, 1}, {2, 1}, {1, -2}}) {
     const int dx = direction[0], dy = direction[1];
     for (const double aside : {0.0, 0.25}) {
-      const auto at = [&](double along) {
-        return std::array<double, 2>{along * dx + aside * (dy == 0 ? 0 : 1), along * dy + aside * (dy == 0 ? 1 : 0)};
-      };
-      model.draws_flat = model.draws_flat || covers_any(rival, model, {at(-1), at(1), at(0.5)}) ||
-                         covers_any(rival, model, {at(1), at(-1), at(-1)});
+      for (const std::array<double, 3>& along : {std::array<double, 3>{-1, 1, 0.5}, {1, -1, -1}, {-1, 0, 1}}) {
+        std::array<std::array<double, 2>, 3> t{}, on{};
+        for (std::size_t i = 0; i < 3; ++i) {
+          t[i] = {along[i] * dx + aside * (dy == 0 ? 0 : 1), along[i] * dy + aside * (dy == 0 ? 1 : 0)};
+          on[i] = {placed_at(rival, model.x, t[i][0]), placed_at(rival, model.y, t[i][1])};
+        }
+        const double turn =
+            (on[1][0] - on[0][0]) * (on[2][1] - on[0][1]) - (on[1][1] - on[0][1]) * (on[2][0] - on[0][0]);
+        if (std::abs(turn) < 0x1p-20) model.draws_flat = model.draws_flat || covers_any(rival, model, t);
+      }
     }
   }
-  // Smaller and smaller, down to a step of each axis's grid.
-  const int most_x = model.x.bits < 0 ? 12 : std::min(model.x.bits, 12);
-  const int most_y = model.y.bits < 0 ? 12 : std::min(model.y.bits, 12);
+  // Smaller and smaller, down to a step of each axis's grid, or to what float32 has at the sample.
+  const int finest = rival.position_step() > 0 ? 16 : 20;
+  const int most_x = model.x.bits < 0 ? finest : std::min(model.x.bits, finest);
+  const int most_y = model.y.bits < 0 ? finest : std::min(model.y.bits, finest);
   double drawn = 0;
   for (int k = 1; k <= std::max(most_x, most_y); ++k) {
     const double sx = std::ldexp(1.0, -std::min(k, most_x)), sy = std::ldexp(1.0, -std::min(k, most_y));
@@ -185,7 +197,7 @@ void infer_small(Rival& rival, Inference& result) {
     drawn = 4.5 * sx * sy;
   }
   // The smallest one of a grid has its corners a step apart. No sample is inside; the one at a corner may be its own.
-  if (model.x.bits < 0 || model.y.bits < 0 || model.x.bits > 12 || model.y.bits > 12) return;
+  if (model.x.bits < 0 || model.y.bits < 0 || model.x.bits > finest || model.y.bits > finest) return;
   const double sx = std::ldexp(1.0, -model.x.bits), sy = std::ldexp(1.0, -model.y.bits);
   for (const int a : {-1, 1}) {
     for (const int b : {-1, 1}) {

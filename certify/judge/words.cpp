@@ -76,6 +76,7 @@ bool owns(const Owners& owners, Side side) {
 
 // "both sides own level edges", and the like; empty where each sample on an edge belongs to one of its sides.
 std::vector<std::string> owner_sentences(const Owners& owners) {
+  if (owners.open == 0xFF && owners.owned != 0xFF) return {};  // nobody has seen any
   struct Pair {
     Side a, b;
     const char* edges;
@@ -189,24 +190,26 @@ std::vector<std::string> departures(const Model& model) {
   const bool cleared = std::isfinite(model.clear);
   if (model.clipped && (!cleared || std::isfinite((*model.clipped)[0]))) {
     const auto [low, high] = *model.clipped;
-    sentences.push_back(std::isfinite(low) && std::isfinite(high) ? "it always clips depth to 0 to 1"
-                        : std::isfinite(low)                      ? "it leaves out depth below 0"
-                                                                  : "it leaves out depth above 1");
+    sentences.push_back(std::isfinite(low) && std::isfinite(high)
+                            ? text("it always clips depth to %.6g to %.6g", low, high)
+                        : std::isfinite(low) ? text("it leaves out depth below %.6g", low)
+                                             : text("it leaves out depth above %.6g", high));
   }
   if (model.least_area > 0)
     sentences.push_back(
         text("it leaves out small triangles, of less than %.2g square pixels at the most", model.least_area));
-  if (model.draws_flat)
+  if (model.draws_flat && model.x.blur == 0 && model.y.blur == 0)
     sentences.emplace_back("triangles without area are drawn, as the lines that they are or otherwise");
   if (std::isfinite(model.band)) {
     const std::string distance =
-        model.band > 0 ? text("further than some distance beyond the target, %g pixels at the least", model.band)
+        model.band > 0 ? text("further than some distance beyond the target, %g pixels at the least,", model.band)
                        : "beyond the target";
-    sentences.push_back("it cuts triangles that reach " + distance + ", and rounds the new vertices");
+    sentences.push_back("edges of triangles that reach " + distance +
+                        " are a little off, as where such triangles are cut, or slopes rounded");
   }
   if (model.least_w > 0) sentences.push_back(text("it draws nothing of W below %.3g", model.least_w));
   if (std::isfinite(model.most_w)) sentences.push_back(text("it draws nothing of W above %.3g", model.most_w));
-  if (cleared)
+  if (cleared && !(model.clipped && (*model.clipped)[1] < 1))
     sentences.push_back(text("depth is cleared to %g, so nothing %s is seen", model.clear,
                              model.later_wins ? "beyond" : "there or beyond"));
   if (model.later_wins) sentences.push_back("of equal depths the later one comes");
@@ -240,7 +243,7 @@ std::vector<std::string> differences(const Model& from, const Model& to) {
     if (owners.empty()) owners.push_back("its fill rule is " + rule_name(to.front) + ", not " + rule_name(from.front));
     sentences.insert(sentences.end(), owners.begin(), owners.end());
   }
-  if (from.vertices != to.vertices) {
+  if (from.vertices != to.vertices && rule_name(to.front) != "unknown") {
     sentences.push_back(to.vertices == oracle::AtVertices::covered ? "a sample at a vertex is always covered"
                         : to.vertices == oracle::AtVertices::not_covered
                             ? "a sample at a vertex is never covered"

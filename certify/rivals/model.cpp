@@ -94,6 +94,7 @@ void infer_depth_range(Rival& rival, Inference& result) {
   // No model has depths that are off by this much.
   const auto come = [](const FlatDepths& found, float slope, float constant) {
     for (std::size_t n = 0; n < found.size(); ++n) {
+      if (std::isinf(found[n])) continue;  // it clips that
       if (!(std::abs(found[n] - (slope * kFlatDepths[n] + constant)) < 0.01f)) return false;
     }
     return true;

@@ -160,6 +160,8 @@ Rival::Rival(RivalOptions options) : options_(std::move(options)) {
   check_info(info_, version_);
   if (primitives_ >> SUREFILL_ADAPTER2_LINES & 1u) info_.features |= kLines;
   if (primitives_ >> SUREFILL_ADAPTER2_POINTS & 1u) info_.features |= kPoints;
+  says_rows_ = info_.model.y != SUREFILL_ADAPTER_Y_UNKNOWN;
+  says_depth_range_ = info_.model.depth_range != SUREFILL_ADAPTER_DEPTH_RANGE_UNKNOWN;
   if (info_.model.y == SUREFILL_ADAPTER_Y_UNKNOWN) info_.model.y = SUREFILL_ADAPTER_Y_DOWN;
   if (info_.model.depth_range == SUREFILL_ADAPTER_DEPTH_RANGE_UNKNOWN) {
     info_.model.depth_range = SUREFILL_ADAPTER_ZERO_TO_ONE;

@@ -73,6 +73,9 @@ class Rival {
   // The model that it states: version 2.
   const std::optional<judge::Model>& stated() const { return stated_; }
   void set_model(const surefill_adapter_model& model) { info_.model = model; }
+  // It says which row is the first one, and which range clip depth has; else info() has the usual ones.
+  bool says_rows() const { return says_rows_; }
+  bool says_depth_range() const { return says_depth_range_; }
 
   // Draws the frame, under the model, into those buffers of the target that the rival has; leaves the others as they
   // are. Where it has no count, each triangle is drawn alone and the covers are added up. Throws RivalFailure,
@@ -118,6 +121,7 @@ class Rival {
   surefill_adapter_info info_{};
   std::uint32_t primitives_ = 0;
   std::optional<judge::Model> stated_;
+  bool says_rows_ = true, says_depth_range_ = true;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Process>> idle_;
   std::string last_failure_;

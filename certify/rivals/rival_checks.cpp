@@ -482,18 +482,22 @@ RivalSubject meet_rival(Rival& rival) {
   }
   if (!subject.declared) {
     const surefill_adapter_model said = rival.info().model, &found = subject.inference.model;
-    if (said.y == SUREFILL_ADAPTER_Y_DOWN && found.y == SUREFILL_ADAPTER_Y_UP) {
+    if (rival.says_rows() && said.y == SUREFILL_ADAPTER_Y_DOWN && found.y == SUREFILL_ADAPTER_Y_UP) {
       subject.conventions.emplace_back(
           "the picture is upside down: its first row is the bottom one, where it says the top one");
     }
-    if (said.depth_range == SUREFILL_ADAPTER_ZERO_TO_ONE && found.depth_range == SUREFILL_ADAPTER_MINUS_ONE_TO_ONE) {
+    if (rival.says_depth_range() && said.depth_range == SUREFILL_ADAPTER_ZERO_TO_ONE &&
+        found.depth_range == SUREFILL_ADAPTER_MINUS_ONE_TO_ONE) {
       subject.conventions.emplace_back("its clip depth is -1 to 1, where it says 0 to 1");
     }
     rival.set_model(found);
   }
   subject.terms = adapters::terms_of(rival.info(), rival.stated(), subject.inference.judged);
   if (!rival.stated()) hold_to_standard(rival.info().model.profile, subject.terms.model.lines);
-  subject.terms.rounds_slanted = !subject.declared && !exact_profile(rival);
+  const oracle::Model& model = subject.terms.model;
+  const bool d3d11 = rival.info().model.profile == SUREFILL_ADAPTER_PROFILE_D3D11;
+  subject.terms.rounds_slanted =
+      !subject.declared && !exact_profile(rival) && !(d3d11 && model.x.bits >= 0 && model.y.bits >= 0);
   subject.strict = exact_profile(rival) && rival.info().model.kind != SUREFILL_ADAPTER_MODEL_UNKNOWN;
   return subject;
 }

@@ -375,7 +375,7 @@ TEST_F(Adapter, ACutBesideTheTargetIsNotHeldAgainstARightOne) {
                     " --plugin-arguments right-52"),
             0)
       << out;
-  EXPECT_TRUE(says("it cuts triangles that reach beyond the target")) << out;
+  EXPECT_TRUE(says("edges of triangles that reach beyond the target")) << out;
 }
 
 TEST_F(Adapter, PlainPythonAndItsThreeFaults) {

@@ -166,10 +166,64 @@ TEST(RightWays, PiecesOfWhatIsCut) {
   EXPECT_NE(counted(1.0 / 64, 2), "");
 }
 
-// Positions are rounded to whole pixels; the samples are in their middles, or at their corners.
-class WholePixels : public Rival {
+// A vertex that surely lies on the sample decides where vertices are overruled, whatever comes of the others.
+TEST(RightWays, AVertexOnTheSampleDecides) {
+  oracle::Model model;
+  for (oracle::AxisModel* axis : {&model.x, &model.y}) axis->bits = 4, axis->divided_blur = 1.0 / 256;
+  // The third vertex is a tie of the grid, and its W no power of two.
+  const std::array<Vertex, 3> triangle{{{0, 1, 0, 1}, {8, 8, 0, 16}, {0x1.c8p-7f, 0, 0, 0x1.8p-6f}}};
+  const auto answer = [&](oracle::AtVertices vertices) {
+    model.vertices = vertices;
+    return oracle::cover(model, 1, 1, 1, triangle)[0];
+  };
+  EXPECT_EQ(answer(oracle::AtVertices::covered), oracle::Cover::yes);
+  EXPECT_EQ(answer(oracle::AtVertices::not_covered), oracle::Cover::no);
+  EXPECT_EQ(answer(oracle::AtVertices::open), oracle::Cover::open);
+}
+
+// Ties on slanted edges go by a rounding where slopes are floating point, so nobody owes them who says nothing of them.
+TEST(RightWays, SlopesDecideTiesOnAGrid) {
+  Terms terms = known_terms();
+  for (oracle::AxisModel* axis : {&terms.model.x, &terms.model.y}) axis->bits = 4;
+  const auto said = [&terms](const std::array<corpus::SceneVertex, 3>& triangle, std::uint32_t count) {
+    return said_of(alone(1, 1, triangle), terms, {true, false, false, false, false},
+                   [count](Image& image) { image.count = {count}; });
+  };
+  const std::array<corpus::SceneVertex, 3> slanted{corner(-7, -12), corner(2, 3), corner(0, 0)},
+      upright{corner(0.5, -12), corner(2, 3), corner(0.5, 3)};
+  EXPECT_NE(said(slanted, 0) == "", said(slanted, 1) == "");
+  terms.rounds_slanted = true;
+  EXPECT_EQ(said(slanted, 0), "");
+  EXPECT_EQ(said(slanted, 1), "");
+  EXPECT_NE(said(upright, 0), "");
+  // Without a grid, and with a rule that is none of C3's, all edges are such.
+  terms.model.x.bits = terms.model.y.bits = -1;
+  EXPECT_NE(said(upright, 0), "");
+  terms.model.front = terms.model.back = oracle::owners_of(FillRule::closed);
+  EXPECT_EQ(said(upright, 0), "");
+  EXPECT_EQ(said(upright, 1), "");
+}
+
+// What the test GREATER makes of depth at its clear value, which nobody states, is open.
+TEST(RightWays, WhatIsStoredAtTheClearValueMayBeSeen) {
+  Terms terms = known_terms();
+  terms.counts_seen = true, terms.model.clear = 1, terms.model.later_wins = true;
+  terms.model.format = oracle::DepthFormat::unorm16;
+  Scene scene = alone(1, 1, {corner(-1, -1, -0.25), corner(3, -1, -0.25), corner(-1, 3, -0.25)});
+  scene.depth_test = DepthTest::greater;
+  for (const std::uint32_t count : {0u, 1u}) {
+    EXPECT_EQ(
+        said_of(scene, terms, {true, false, false, false, false}, [count](Image& image) { image.count = {count}; }),
+        "");
+  }
+}
+
+// Positions are rounded to a grid, ties up; the samples are in the middles of pixels, or at their corners.
+class OnGrid : public Rival {
  public:
-  WholePixels(double place, bool wrong) : place_(place), wrong_(wrong) {}
+  OnGrid(int bits, double place, bool wrong) : steps_(std::ldexp(1, bits)), place_(place), wrong_(wrong) {}
+  // Fragments of other depths, and smaller triangles, are left out.
+  double near = -INFINITY, far = INFINITY, least_area = 0;
   corpus::Outputs outputs() const override { return {true, false, false, false, false}; }
   double position_step() const override { return 0; }
   Image draw(const Scene& scene, const corpus::Outputs& wanted) override {
@@ -178,12 +232,15 @@ class WholePixels : public Rival {
     for (const corpus::SceneDraw& draw : scene.draws) {
       for (const corpus::SceneTriangle& triangle : draw.triangles) {
         std::array<std::array<double, 2>, 3> p{};
+        bool clipped = false;  // flat ones
         for (std::size_t i = 0; i < 3; ++i) {
           const corpus::SceneVertex& v = draw.vertices[triangle.vertices[i]];
           if (!(v.w > 0)) throw Declined("behind the eye");
-          p[i] = {std::floor(double{v.x} / v.w + 0.5), std::floor(double{v.y} / v.w + 0.5)};
+          clipped = clipped || !(double{v.z} / v.w >= near && double{v.z} / v.w <= far);
+          p[i] = {std::floor(double{v.x} / v.w * steps_ + 0.5) / steps_,
+                  std::floor(double{v.y} / v.w * steps_ + 0.5) / steps_};
         }
-        cover(p, scene.width, scene.height, image.count);
+        if (!clipped) cover(p, scene.width, scene.height, image.count);
       }
     }
     return std::move(image);
@@ -195,7 +252,7 @@ class WholePixels : public Rival {
       return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0]);
     };
     const double area = turn(p[0], p[1], p[2][0], p[2][1]);
-    if (area == 0) return;
+    if (area == 0 || std::abs(area) < 2 * least_area) return;
     if (area < 0) std::swap(p[1], p[2]);
     for (int y = 0; y < height; ++y) {
       for (int x = 0; x < width; ++x) {
@@ -211,21 +268,76 @@ class WholePixels : public Rival {
     }
   }
 
-  double place_;
+  double steps_, place_;
   bool wrong_;
 };
 
-TEST(RightWays, WhatIsStatedOfWholePixelsIsConfirmed) {
-  for (const double place : {0.0, 0.5}) {
+// What is stated may be what is drawn in other words than probing finds, or more than it sees.
+TEST(RightWays, WhatIsStatedIsConfirmed) {
+  struct Case {
+    int bits;
+    double place;                                    // drawn
+    double stated, within = 0, moved = 0, blur = 0;  // stated
+  };
+  constexpr Case kCases[] = {{0, 0, 0},
+                             {0, 0.5, 0.5},
+                             {4, 0.40625, 0.40625},    // no vertex lies on a sample
+                             {8, 0.25, 0.5, 0, 0.25},  // the picture is moved
+                             {8, 0.25, 0.28125, 0, 0.03125},
+                             {8, 0.3, 0.3, 0.001},
+                             {8, 0.5, 0.5, 0, 0, 0.0001}};
+  for (const Case& one : kCases) {
     Model stated;
     for (oracle::AxisModel* axis : {&stated.x, &stated.y}) {
-      axis->bits = 0, axis->rounding = oracle::Rounding::nearest_up, axis->place = place;
+      axis->bits = one.bits, axis->rounding = oracle::Rounding::nearest_up, axis->place = one.stated;
+      axis->place_within = one.within, axis->moved = one.moved, axis->blur = one.blur;
     }
     for (const bool wrong : {false, true}) {
-      WholePixels rival(place, wrong);
+      // Who owns edges is stated wrongly; where that is not seen, the place is.
+      const bool unseen = one.within > 0 || one.blur > 0;
+      OnGrid rival(one.bits, one.place + (wrong && unseen ? 1.0 / 64 : 0), wrong && !unseen);
       const Inference found = infer(rival, adapters::oracle_expected(), stated);
-      EXPECT_EQ(found.known && differences(stated, found.model).empty(), !wrong) << place << describe(found.model);
+      EXPECT_EQ(found.known && differences(stated, found.model).empty(), !wrong)
+          << one.bits << " " << one.place << " " << wrong << " " << describe(found.model);
     }
+  }
+}
+
+// On the coarsest grids edges turn at few places, and on the finest one nothing lies between a place and the next but few numbers.
+TEST(RightWays, CoarseAndFineGridsAreFound) {
+  for (const int bits : {0, 1, 14, 15, 16}) {
+    for (const double place : {0.0, 0.5}) {
+      OnGrid rival(bits, place, false);
+      const Inference found = infer(rival, adapters::oracle_expected(), std::nullopt);
+      Model due;
+      for (oracle::AxisModel* axis : {&due.x, &due.y}) {
+        axis->bits = bits, axis->rounding = oracle::Rounding::nearest_up, axis->place = place;
+      }
+      // No vertex lies on a sample: who owns it is not seen, and nothing is said of it.
+      if (bits == 0 && place == 0.5) due.front.open = due.back.open = 0xFF;
+      EXPECT_TRUE(found.known && differences(due, found.model).empty() && !found.model.draws_flat &&
+                  found.model.x.blur == 0)
+          << bits << " " << place << ": " << describe(found.model) << found.model.draws_flat << found.model.x.blur
+          << testing::PrintToString(differences(due, found.model));
+    }
+  }
+}
+
+// Planes of depth that are its own, and triangles that it leaves out as too small.
+TEST(RightWays, LimitsAreFound) {
+  for (const auto& [near, far] : {std::array{0.25, 0.75}, {0.0001, 1.0}, {-1.0, 1.0}, {-0.5, 1.5}, {0.0, 100.0}}) {
+    OnGrid rival(8, 0.5, false);
+    rival.near = near, rival.far = far;
+    const Inference found = infer(rival, adapters::oracle_expected(), std::nullopt);
+    ASSERT_TRUE(found.known && found.model.clipped);
+    EXPECT_NEAR((*found.model.clipped)[0], near, 1e-7);
+    EXPECT_NEAR((*found.model.clipped)[1], far, 1e-5);
+  }
+  for (const double least : {1e-3, 1e-7, 1e-9}) {
+    OnGrid rival(16, 0.5, false);
+    rival.least_area = least;
+    const Inference found = infer(rival, adapters::oracle_expected(), std::nullopt);
+    EXPECT_TRUE(found.known && found.model.least_area >= least && found.model.least_area < 8 * least) << least;
   }
 }
 

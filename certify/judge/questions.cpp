@@ -411,9 +411,10 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
     return true;
   };
   // Where pixels or triangles are lost by their place, number or size, what else is asked would be about that.
-  if (say(about_repeats(questions)) || say(about_ends_of_rows(questions)) || say(about_ways_of_filling(questions)) ||
-      say(about_reach(questions)) || say(about_strides(questions)) || say(about_blocks(questions)) ||
-      say(about_boxes(questions)) || say(about_pattern(questions))) {
+  if (say(about_repeats(questions)) || say(about_ends_of_rows(questions)) ||
+      (kAsksAll && say(about_ways_of_filling(questions))) || say(about_reach(questions)) ||
+      say(about_strides(questions)) || say(about_blocks(questions)) || say(about_boxes(questions)) ||
+      say(about_pattern(questions))) {
     return answers;
   }
   if (say(about_indices(questions)) || say(about_vertex_cache(questions)) ||
@@ -441,7 +442,8 @@ Answers ask(const Questions& questions, std::span<const Fault> faults) {
       say(about_tiny(questions)) || say(about_triangles_before(questions))) {
     return answers;
   }
-  if (!questions.slow && (say(about_precision(questions)) || say(about_slopes(questions)))) return answers;
+  if (!questions.slow && (say(about_precision(questions)) || (kAsksAll && say(about_slopes(questions)))))
+    return answers;
   const std::string growth = about_growth(questions), far = growth.empty() ? about_far(questions) : growth;
   if (!questions.slow) {
     say(about_vertices(questions));

@@ -59,32 +59,50 @@ void infer_w(Rival& rival, Inference& result) {
   }
 }
 
+// The nearest float32; or the nearest one that clip depth of -1 to 1 has exactly, too.
+float depth_at(double z, bool coarse) {
+  const double step = std::abs(z) < 1.5 ? 0x1p-23 : std::ldexp(1.0, std::ilogb(z) - 20);
+  return static_cast<float>(coarse ? std::nearbyint(z / step) * step : z);
+}
+
 // From 1/2 to where nothing is drawn any more: the last depth that is, or an infinity.
-double limit_of_depth(Rival& rival, const Model& model, double farthest) {
-  if (covers(rival, large(model, static_cast<float>(farthest)))) return farthest < 0 ? -INFINITY : INFINITY;
+double limit_between(Rival& rival, const Model& model, double farthest, bool coarse) {
+  if (covers(rival, large(model, depth_at(farthest, coarse)))) return farthest < 0 ? -INFINITY : INFINITY;
   double drawn = 0.5, left_out = farthest;
-  // Between magnitudes that are far apart by their root.
-  for (int n = 0; n < 80 && static_cast<float>(drawn) != static_cast<float>(left_out); ++n) {
+  for (int n = 0; n < 80; ++n) {
     double middle = (drawn + left_out) / 2;
+    // Between magnitudes that are far apart by their root.
     if (drawn * left_out > 0 && std::max(drawn / left_out, left_out / drawn) > 4) {
       middle = std::copysign(std::sqrt(drawn * left_out), drawn);
     } else if (drawn > 0 && left_out < 0) {
       middle = 0;
     }
-    if (static_cast<float>(middle) == static_cast<float>(drawn) ||
-        static_cast<float>(middle) == static_cast<float>(left_out))
-      break;
-    (covers(rival, large(model, static_cast<float>(middle))) ? drawn : left_out) = static_cast<float>(middle);
+    middle = depth_at(middle, coarse);
+    if (middle == drawn || middle == left_out) break;
+    (covers(rival, large(model, static_cast<float>(middle))) ? drawn : left_out) = middle;
   }
   // What is clipped at 0 or 1, or hidden at 1, as roundings and formats of depth have it.
   if (std::abs(drawn) < 0x1p-20) return 0;
   return std::abs(drawn - 1) < 0x1p-14 ? 1 : drawn;
 }
 
+// The same of depths that it takes.
+double limit_of_depth(Rival& rival, const Model& model, double sign) {
+  for (const double farthest : {0x1p20, 16.0}) {
+    for (const bool coarse : {false, true}) {
+      try {
+        return limit_between(rival, model, sign * farthest, coarse);
+      } catch (const Declined&) {
+        // Of others, perhaps.
+      }
+    }
+  }
+  const bool drawn = covers(rival, large(model, sign < 0 ? -0.5f : 1.5f));
+  return drawn ? sign * INFINITY : sign < 0 ? 0 : 1;
+}
+
 void infer_clipping(Rival& rival, Inference& result) {
-  constexpr double kFarthest = 0x1p20;
-  const double low = limit_of_depth(rival, result.model, -kFarthest),
-               high = limit_of_depth(rival, result.model, kFarthest);
+  const double low = limit_of_depth(rival, result.model, -1), high = limit_of_depth(rival, result.model, 1);
   if (std::isinf(low) && high == 1 && !rival.outputs().count) {
     // Or a clear value of 1 hides it, which lies behind all with the test GREATER.
     corpus::Scene scene = large(result.model, 1.5f);
@@ -99,7 +117,7 @@ void infer_clipping(Rival& rival, Inference& result) {
 }
 
 // What comes back of flat depths: to the bit, or in steps.
-void infer_format(Rival& rival, Inference& result) {
+void infer_format(Rival& rival, Inference& result, bool coarse) {
   corpus::Outputs wanted{};
   wanted.count = wanted.index = wanted.barycentrics = wanted.attributes = false;
   const auto [from, to] = result.model.clipped.value_or(std::array{0.0, 1.0});
@@ -107,7 +125,7 @@ void infer_format(Rival& rival, Inference& result) {
   bool exact = true, steps24 = true, steps16 = true;
   double largest = 0;
   for (int n = 0; n < 24; ++n) {
-    const auto z = static_cast<float>(low + (high - low) * (std::fmod(0.1 + n * 0.6180339887498949, 0.96) + 0.02));
+    const float z = depth_at(low + (high - low) * (std::fmod(0.1 + n * 0.6180339887498949, 0.96) + 0.02), coarse);
     const corpus::Image image = rival.draw(large(result.model, z), wanted);
     const double got = image.depth[kMiddle], error = std::abs(got - z);
     if (!std::isfinite(got)) return;
@@ -169,7 +187,15 @@ void infer_facts(Rival& rival, Inference& result) {
   try_to("which facing it culls", [&] { infer_culling(rival, result); });
   try_to("which W it takes", [&] { infer_w(rival, result); });
   try_to("whether it clips depth", [&] { infer_clipping(rival, result); });
-  if (has.depth) try_to("how it keeps depth", [&] { infer_format(rival, result); });
+  if (has.depth) {
+    try_to("how it keeps depth", [&] {
+      try {
+        infer_format(rival, result, false);
+      } catch (const Declined&) {
+        infer_format(rival, result, true);
+      }
+    });
+  }
   if (has.index || has.depth) try_to("what is visible", [&] { infer_visibility(rival, result, has); });
 }
 

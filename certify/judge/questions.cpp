@@ -265,6 +265,7 @@ std::string about_states_of_draws(const Questions& questions, std::span<const Fa
   Random random(0xD2A3);
   for (std::size_t k = 0; k < kOfDraws; ++k) {
     std::vector<Wrong> wrong;
+    std::vector<Scene> fine;
     std::array<int, 2> bad{}, all{};
     int alone = 0;
     for (std::size_t n = 0; n < 12; ++n) {
@@ -288,12 +289,16 @@ std::string about_states_of_draws(const Questions& questions, std::span<const Fa
       if (!one || !both) break;
       alone += differs(*one);
       ++all[n % 2];
-      if (!differs(*both)) continue;
+      if (!differs(*both)) {
+        fine.push_back(scene);
+        continue;
+      }
       ++bad[n % 2];
       wrong.push_back(*both);
     }
     if (all[0] + all[1] < 6 || alone > 1 || wrong.size() < 3) continue;
-    const std::vector<Name> names = name_fault(faults, wrong, 0x1p-8);
+    std::vector<Name> names = name_fault(faults, wrong, 0x1p-8);
+    drop_refuted(names, fine, 0x1p-8);
     if (kStates[k].cull != Cull::none) {
       return "of draws with the same culling all have the front face of the first: it is taken over only when culling "
              "changes";

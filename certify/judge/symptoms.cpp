@@ -175,7 +175,14 @@ void add_odd_index(std::span<const Wrong> wrong, std::vector<std::string>& sente
   if (most(follow, scenes)) sentences.emplace_back("indices count from the last triangle, not from the first");
 }
 
-void add_depth(std::span<const Wrong> wrong, double within, std::vector<std::string>& sentences) {
+void add_depth(std::span<const Wrong> all, double within, std::vector<std::string>& sentences) {
+  // Where depth is about right, it says nothing.
+  std::vector<Wrong> wrong(all.begin(), all.end());
+  std::erase_if(wrong, [within](const Wrong& shown) {
+    const auto &right = shown.right.depth, &rival = shown.rival.depth;
+    return std::equal(right.begin(), right.end(), rival.begin(), rival.end(),
+                      [within](float a, float b) { return alike_within(a, b, within); });
+  });
   const auto empty = [](float z) { return std::isinf(z); };
   const auto clamped = [&](float z, float got) {
     return empty(z) ? got == z : alike_within(got, std::clamp(z, 0.0f, 1.0f), within);
@@ -188,7 +195,8 @@ void add_depth(std::span<const Wrong> wrong, double within, std::vector<std::str
   for (const int bits : {8, 16, 24}) {
     const double steps = std::ldexp(1.0, bits) - 1;
     const auto stepped = [&](float z, float got) {
-      if (empty(z) || z < 0 || z > 1) return true;
+      if (empty(z)) return empty(got);
+      if (z < 0 || z > 1) return true;
       return std::abs(got - z) <= 1 / steps && got == static_cast<float>(std::nearbyint(got * steps) / steps);
     };
     if (following(wrong, &Image::depth, stepped).all()) {

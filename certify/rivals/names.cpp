@@ -223,6 +223,18 @@ std::vector<std::string> sentences_of(std::span<const judge::Name> names, std::s
   return sentences;
 }
 
+// Where the first triangle and the last one are lost alike, frames of one triangle are, and that says neither.
+void drop_opposites(std::vector<judge::Name>& names) {
+  constexpr std::array<const char*, 2> kEnds{"the first triangle of a draw is lost",
+                                             "the last triangle of a draw is lost"};
+  const auto at = [&names](const char* which) {
+    return std::ranges::find_if(names, [which](const judge::Name& name) { return name.fault->sentence == which; });
+  };
+  const auto first = at(kEnds[0]), last = at(kEnds[1]);
+  if (first == names.end() || last == names.end() || std::abs(first->agreement - last->agreement) > 0.01) return;
+  std::erase_if(names, [&](const judge::Name& name) { return std::ranges::count(kEnds, name.fault->sentence) > 0; });
+}
+
 std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<const Scene> found) {
   constexpr std::size_t kMost = 3;
   const std::string which = which_viewports(subject);
@@ -261,6 +273,11 @@ std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<co
   if (!wrong.empty()) {
     std::vector<judge::Name> names = judge::name_fault(known_faults(), wrong, trials.within);
     judge::drop_refuted(names, fine, kWithin);
+    drop_opposites(names);
+    // Of who draws nothing in simple frames, what draws some of it says little.
+    if (std::ranges::any_of(subject.inference.problems,
+                            [](const std::string& s) { return s.ends_with("cover nothing"); }))
+      std::erase_if(names, [](const judge::Name& name) { return name.agreement < 0.9; });
     if (!names.empty()) {
       for (const std::vector<Scene>& right : judge::right_without(wrong, trials)) {
         judge::drop_refuted(names, right, kWithin);
@@ -271,7 +288,9 @@ std::vector<std::string> explain_rival(const RivalSubject& subject, std::span<co
       std::erase_if(names, [](const judge::Name& name) { return name.agreement < 0.9; });
       drop_contradicted(names, subject, questions, asked, fine);
       for (const judge::Name& name : names) {
-        if (name.agreement == names.front().agreement) sentences.push_back(name_text(name));
+        if (name.agreement < names.front().agreement) continue;
+        const auto said = std::ranges::find(sentences, name.fault->sentence);
+        said == sentences.end() ? sentences.push_back(name_text(name)) : void(*said = name_text(name));
       }
     } else {
       for (const std::string& sentence : sentences_of(names, wrong, fine, trials)) sentences.push_back(sentence);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
 #include <string>
 #include <vector>
@@ -126,6 +127,23 @@ TEST(Symptoms, AFirstDrawMayHaveNoTriangles) {
   };
   (void)symptoms(wrong, {}, {still_wrong, [](const Scene&) { return std::nullopt; }});
   EXPECT_EQ(tried, wrong.size());
+}
+
+// Depths that differ by roundings alone are not what is wrong.
+TEST(Symptoms, RoundingsOfDepthSayNothing) {
+  std::vector<Wrong> wrong;
+  for (int n = 0; n < 12; ++n) {
+    Wrong& shown = wrong.emplace_back();
+    shown.scene = flat_scene(16, 16, {{Point{1, 1}, Point{14, static_cast<float>(n)}, Point{3, 15}}}, 0.3F);
+    shown.right = shown.rival = right_image(shown.scene);
+    for (std::uint32_t& index : shown.rival.index) index = index == kNoTriangle ? index : index + 7;
+    for (float& z : shown.rival.depth) z = std::isinf(z) ? z : std::nextafter(z, 0.0F);
+  }
+  const Trials trials{[](const Scene&) { return true; }, [&](const Scene&) { return std::optional(wrong[0]); },
+                      0x1p-16};
+  for (const std::string& sentence : symptoms(wrong, {}, trials)) {
+    EXPECT_EQ(sentence.find("depth"), std::string::npos) << sentence;
+  }
 }
 
 // What the rival does not draw is not right, so nothing is said to be needed by that.

@@ -239,5 +239,35 @@ TEST(Values, SayWhichStateKeepsDepthFromBeingCleared) {
       << sentences.front();
 }
 
+// A scissor that stays on looks like the state of the first draw; frames that are right tell them apart.
+TEST(Values, SayWhichStateGoesFromDrawToDraw) {
+  const auto with = [](const Scene& scene, bool stays) {
+    Scene other = scene;
+    for (std::size_t d = 1; d < other.draws.size(); ++d) {
+      const SceneDraw& before = other.draws[stays ? d - 1 : 0];
+      if (!stays || !other.draws[d].scissor) other.draws[d].scissor = before.scissor;
+    }
+    return other;
+  };
+  const auto fault = [](const char* sentence, bool stays) {
+    Fault result;
+    result.sentence = sentence;
+    result.render = [stays](const Target& target, std::span<const Draw> draws) {
+      std::vector<Draw> changed(draws.begin(), draws.end());
+      for (std::size_t d = 1; d < changed.size(); ++d) {
+        if (!stays || !changed[d].scissor) changed[d].scissor = changed[stays ? d - 1 : 0].scissor;
+      }
+      return oracle::render(target, changed), Status::ok;
+    };
+    return result;
+  };
+  const std::vector<Fault> faults{fault("the first draw's", false), fault("it stays", true)};
+  const auto drawn = [&](const Scene& scene) { return std::optional(right_image(with(scene, true))); };
+  const auto right = [](const Scene& scene) { return std::optional(right_image(scene)); };
+  const std::vector<std::string> sentences = ask({drawn, right, {}, true}, faults).sentences;
+  ASSERT_FALSE(sentences.empty());
+  EXPECT_EQ(sentences.front(), "it stays");
+}
+
 }  // namespace
 }  // namespace surefill::judge

@@ -69,7 +69,8 @@ enum {
 };
 
 typedef struct surefill_adapter2_axis {
-  double place, place_within; /* of the sample in its pixel, 1/2 being its centre, and how well that is known (R2) */
+  double place, place_within; /* of the sample in its pixel, 1/2 being its centre, and how well that is known (R2):
+                                  2^-16 at best, if it is no multiple of that */
   double lacks, moved;        /* of the viewport (R3) */
   double blur,
       divided_blur;   /* how far a position may be from where it should be, and where W is no power of two (R4) */

@@ -25,7 +25,7 @@ AxisModel in_plain_words(AxisModel axis) {
   if (axis.bits >= 0) {
     if (axis.rounding == Rounding::nearest_away || axis.rounding == Rounding::truncate) return axis;
     const double steps = (moved_offset - offset) / step;
-    if (axis.rounding == Rounding::nearest_even && std::fmod(steps, 2) != 0) return axis;
+    if (axis.rounding == Rounding::nearest_even && std::fmod(steps, 2) != 0 && axis.blur == 0) return axis;
   }
   axis.grid_offset = offset;
   axis.place -= axis.moved;
@@ -37,7 +37,8 @@ bool is_blurred(const AxisModel& axis) {
   return axis.blur > 0 || axis.place_within > 0;
 }
 
-bool may_be(const AxisModel& stated, const AxisModel& found) {
+// `most` is the largest blur that is stated of an axis: edges show that of both.
+bool may_be(const AxisModel& stated, const AxisModel& found, double most) {
   const double step = stated.bits < 0 ? 0 : std::ldexp(1.0, -stated.bits);
   // So much blur hides a grid.
   const bool hidden = 4 * stated.blur >= step && (stated.bits >= 0 || found.bits < 0);
@@ -48,7 +49,7 @@ bool may_be(const AxisModel& stated, const AxisModel& found) {
       stated.bits == found.bits &&
       (stated.bits < 0 || (same_rounding && std::abs(stated.grid_offset - found.grid_offset) <= stated.blur));
   const bool scaled = stated.lacks != 0;
-  const double blur = std::max(kMargin * stated.blur, scaled ? kRoundings : 0);
+  const double blur = std::max(kMargin * most, scaled ? kRoundings : 0);
   const double apart = stated.place_within + found.place_within + blur;
   return (hidden || same_grid) && std::abs(stated.place - found.place) <= apart && stated.moved == found.moved &&
          std::abs(stated.lacks - found.lacks) <= (scaled ? kRoundings : 0) && found.blur <= blur;
@@ -77,7 +78,8 @@ bool owners_are_seen(const Model& stated) {
 }
 
 bool may_be(const Model& stated, const Model& found) {
-  if (!may_be(stated.x, found.x) || !may_be(stated.y, found.y)) return false;
+  const double most = std::max(stated.x.blur, stated.y.blur);
+  if (!may_be(stated.x, found.x, most) || !may_be(stated.y, found.y, most)) return false;
   if (!owners_are_seen(stated)) return true;
   const auto drawn = [&](Cull facing) { return stated.culled != facing && found.culled != facing; };
   return (!drawn(Cull::front) || may_be(stated.front, found.front)) &&

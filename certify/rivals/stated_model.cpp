@@ -40,6 +40,13 @@ std::string take_axis(const surefill_adapter2_axis& from, oracle::AxisModel& to)
   to = {from.place,      from.place_within, from.lacks,     from.moved,
         from.blur,       from.divided_blur, from.grid_bits, static_cast<oracle::Rounding>(from.rounding),
         from.grid_offset};
+  // Adding 0.3 to the number of a pixel rounds it, in float32 or in double.
+  const auto is_rounded = [](double length) {
+    return std::ldexp(length, 16) != std::nearbyint(std::ldexp(length, 16));
+  };
+  constexpr double kRounded = 0x1p-16;  // of float32 on a target of 512 pixels and less
+  if (is_rounded(from.place)) to.place_within = std::max(to.place_within, kRounded);
+  if (is_rounded(from.moved)) to.blur = std::max(to.blur, kRounded);
   return "";
 }
 

@@ -14,6 +14,7 @@
 #include "certify/judge/questions.hpp"
 #include "certify/judge/words.hpp"
 #include "certify/rivals/model.hpp"
+#include "certify/rivals/stated_model.hpp"
 
 namespace surefill::judge {
 namespace {
@@ -301,6 +302,18 @@ TEST(RightWays, WhatIsStatedIsConfirmed) {
           << one.bits << " " << one.place << " " << wrong << " " << describe(found.model);
     }
   }
+}
+
+// Adding 0.3 to the number of a pixel rounds it.
+TEST(RightWays, PlacesThatAreStatedMayBeRounded) {
+  surefill_adapter2_model stated = adapters::default_model();
+  Model model;
+  stated.x.place = 0.3, stated.y.place = 0.25, stated.y.moved = 0.1;
+  ASSERT_EQ(adapters::take_model(stated, model), "");
+  EXPECT_EQ(model.x.place_within, 0x1p-16);
+  EXPECT_EQ(model.y.place_within, 0);
+  EXPECT_EQ(model.x.blur, 0);
+  EXPECT_EQ(model.y.blur, 0x1p-16);
 }
 
 // On the coarsest grids edges turn at few places, and on the finest one nothing lies between a place and the next but few numbers.

@@ -189,11 +189,14 @@ void infer_facts(Rival& rival, Inference& result) {
   try_to("whether it clips depth", [&] { infer_clipping(rival, result); });
   if (has.depth) {
     try_to("how it keeps depth", [&] {
+      // The page's judge can't wait for a drawing where it handles an exception.
+      bool takes_all = true;
       try {
         infer_format(rival, result, false);
       } catch (const Declined&) {
-        infer_format(rival, result, true);
+        takes_all = false;
       }
+      if (!takes_all) infer_format(rival, result, true);
     });
   }
   if (has.index || has.depth) try_to("what is visible", [&] { infer_visibility(rival, result, has); });

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "certify/judge/room.hpp"
 #include "certify/judge/text.hpp"
 
 namespace surefill::judge {
@@ -88,13 +89,14 @@ double limit_between(Rival& rival, const Model& model, double farthest, bool coa
 
 // The same of depths that it takes.
 double limit_of_depth(Rival& rival, const Model& model, double sign) {
-  for (const double farthest : {0x1p20, 16.0}) {
-    for (const bool coarse : {false, true}) {
-      try {
-        return limit_between(rival, model, sign * farthest, coarse);
-      } catch (const Declined&) {
-        // Of others, perhaps.
-      }
+  // The page's judge can't try again where it handles an exception.
+  for (std::size_t n = 0; kAsksAll && n < 4; ++n) {
+    const double farthest = n < 2 ? 0x1p20 : 16;
+    const bool coarse = n % 2 == 1;
+    try {
+      return limit_between(rival, model, sign * farthest, coarse);
+    } catch (const Declined&) {
+      // Of others, perhaps.
     }
   }
   const bool drawn = covers(rival, large(model, sign < 0 ? -0.5f : 1.5f));
@@ -189,7 +191,7 @@ void infer_facts(Rival& rival, Inference& result) {
   try_to("whether it clips depth", [&] { infer_clipping(rival, result); });
   if (has.depth) {
     try_to("how it keeps depth", [&] {
-      // The page's judge can't wait for a drawing where it handles an exception.
+      if (!kAsksAll) return infer_format(rival, result, false);
       bool takes_all = true;
       try {
         infer_format(rival, result, false);

@@ -115,7 +115,7 @@ try {
 
   // One scene, by its name in the corpus and as text; and no scene.
   const scene = await ran({ scene: "cracks/drtk-9-diagonal-hole" });
-  expect(/draws this scene as its model says: 64 samples judged, 0 open/.test(scene.verdict), `a scene: ${scene.verdict}`);
+  expect(/draws this scene as its model says: 57 samples judged, 7 open/.test(scene.verdict), `a scene: ${scene.verdict}`);
   expect((await scene.page.locator("#report figure").count()) >= 2, "engine and GPU are shown");
   await scene.page.screenshot({ path: join(values.out, "scene-1200.png"), fullPage: true });
   await scene.context.close();
